@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// vsprite/actor.h - one character: a few dozen bytes that a game may copy, save, roll back and send.
+//
+// A tick is one frame of the film. Every tick the actor moves by its sample's `step`; when the
+// sample has been shown for its duration, the table of the commanded direction names the next one.
+// A command takes effect at the next sample. On a change of command the paper's switching chain is
+// entered at stage K and left one stage a sample:
+//
+//     V^k_i = min_j [T_ij + a V^(k-1)_j],  k = 1..K,   V^0 the constrained table  [NIPS section 4.1]
+//
+// Same pack, same seed, same commands: the same states, for ever, on every machine.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "vsprite/geometry.h"
+#include "vsprite/sprite.h"
+
+namespace vsprite {
+
+/// Plain state; only meaningful together with the Sprite that it was made for.
+struct Actor {
+  Position position;            ///< of the anchor, 1/65536 px, game coordinates
+  std::uint64_t tick = 0;       ///< ticks since make_actor
+  std::uint64_t random = 0;     ///< state of the generator; drives variety only
+  std::uint32_t sample = 0;     ///< shown now
+  std::uint16_t shown = 0;      ///< ticks that `sample` has been shown, 1..duration
+  std::uint8_t mode = 0;        ///< index into SpriteData::modes
+  Direction direction = Direction::None;  ///< as commanded
+  std::uint8_t stage = 0;       ///< free steps left
+  std::uint8_t table = 0;       ///< table that chose `sample`: direction followed * stages + stage
+  std::uint8_t jumped = 0;      ///< 1 if this tick shows a sample that is not its predecessor's successor
+  std::uint8_t padding = 0;     ///< zero, so that states may be compared as bytes
+};
+static_assert(std::is_trivially_copyable_v<Actor>);
+
+/// At (x, y), showing the sprite's start sample, direction None.
+Actor make_actor(const Sprite& sprite, Vec2 position = {}, std::uint64_t seed = 0, int mode = 0) noexcept;
+
+/// Commands a direction; the same direction again changes nothing. O(1).
+void set_direction(const Sprite& sprite, Actor& actor, Direction direction) noexcept;
+
+/// Commands the direction that leads to `target`, with hysteresis at the sector borders; Rest once
+/// within `arrive_radius` px. Call it every tick.
+void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_radius) noexcept;
+
+/// One tick. Never fails, allocates, locks or logs. O(1).
+void step(const Sprite& sprite, Actor& actor) noexcept;
+
+/// Where to draw between two ticks: `fraction` in [0, 1) of a tick after the last step, px.
+Vec2 draw_position(const Sprite& sprite, const Actor& actor, float fraction) noexcept;
+
+/// T of the jump that brought the shown sample, given the one before; 0 for natural continuation.
+/// (Actor keeps no past: pass the sample shown before the step.)
+float shown_cost(const Sprite& sprite, std::uint32_t before, const Actor& after) noexcept;
+
+/// Running XXH3-64 over ticks, as DESIGN section 4 defines states_hash. Not thread-safe.
+class StateHash {
+ public:
+  StateHash();
+  ~StateHash();
+  StateHash(const StateHash&) = delete;
+  StateHash& operator=(const StateHash&) = delete;
+  /// Appends, little-endian: tick u64, sample u32, x i64, y i64, direction u8, table u8.
+  void add(const Actor& actor) noexcept;
+  std::uint64_t digest() const noexcept;
+
+ private:
+  void* state_;
+};
+
+}  // namespace vsprite

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// vsprite/pack.h - the one file that a game loads (.vsp), both directions side by side.
+//
+// Little-endian; a header, a table of sections with 64-bit offsets and XXH3-64 sums, then the
+// sections; specified in engine/PACK.md. Until 1.0 a pack is read only by the build that wrote its
+// version (0.1): any other is refused with UnsupportedVersion.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "vsprite/result.h"
+#include "vsprite/sprite.h"
+
+namespace vsprite {
+
+inline constexpr std::uint16_t kPackMajor = 0;
+inline constexpr std::uint16_t kPackMinor = 1;
+
+/// Maps and checks the file: header, tables, every index and every count, before memory is taken.
+/// Pictures are checked when first decoded. Cost: O(tables), not O(pictures).
+/// Errors: NotFound, CannotRead, BadFormat, UnsupportedVersion, CorruptData, LimitExceeded, OutOfMemory.
+Result<Sprite> load_pack(const std::string& path);
+
+/// Hands out the straight-alpha picture of a kept sample; called once each, in ascending order.
+using FrameSource = std::function<Result<Image>(std::uint32_t sample)>;
+
+/// Writes a pack: `path` appears complete and synced, or not at all. The same data give the same
+/// bytes. Errors: CannotCreate, CannotWrite, CorruptData (`data` contradicts itself), OutOfMemory,
+/// and whatever `frames` returns.
+Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames);
+
+/// One finding of verify_pack.
+struct PackIssue {
+  std::string code;         ///< stable name: "bad-magic", "section-sum", "frame-sum", ...
+  std::string severity;     ///< "error" or "warning"
+  std::string section;      ///< four letters, or empty for the header
+  std::uint64_t offset = 0; ///< bytes from the start of the file
+  std::string message;
+};
+
+/// Checks every byte, pictures included. An empty list means valid. Safe on any bytes.
+/// Errors (as opposed to issues): NotFound, CannotRead, OutOfMemory.
+Result<std::vector<PackIssue>> verify_pack(const std::string& path);
+
+/// What a file holds, for people.
+struct PackSection {
+  std::string name;
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+};
+struct PackInfo {
+  std::uint16_t major = 0, minor = 0;
+  std::uint64_t bytes = 0;
+  std::vector<PackSection> sections;
+};
+/// Errors as load_pack.
+Result<PackInfo> read_pack_info(const std::string& path);
+
+}  // namespace vsprite

@@ -1,0 +1,6 @@
+# SPDX-FileCopyrightText: 2026 the vsprite authors
+# SPDX-License-Identifier: MIT
+target_sources(vsprite_precompute PRIVATE
+  control/solve.cpp
+  control/response.cpp
+)

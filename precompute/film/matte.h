@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// film/matte.h - one frame against the screen model: soft coverage and the subject's own colour.
+//
+//     C = alpha F + (1 - alpha) B   in linear light, B known, F from the sure subject nearby
+//
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "film/plate.h"
+#include "film/video.h"
+#include "vsprite/geometry.h"
+#include "vsprite/image.h"
+
+namespace vsprite {
+
+struct MatteConfig {
+  float clip_low = 0.05f;   ///< alpha below this is 0
+  float clip_high = 0.97f;  ///< alpha above this is 1
+};
+
+/// A connected part of a matte.
+struct Blob {
+  Rect box;                  ///< film pixels
+  double area = 0;           ///< sum of alpha / 255
+  double anchor_x = 0;       ///< alpha-weighted centroid of the opened mask, film pixels, sub-pixel
+  double anchor_y = 0;
+  bool touches_border = false;
+  int label = 0;             ///< value in KeyedFrame::labels
+};
+
+/// A frame keyed: the crop that holds everything that is not screen.
+struct KeyedFrame {
+  int index = 0;
+  Rect crop;                          ///< film pixels; empty if nothing was found
+  Image straight;                     ///< (crop) straight-alpha RGBA, screen's share removed
+  std::vector<std::uint8_t> labels;   ///< (crop) 0 = none, else the blob's label
+  std::vector<Blob> blobs;            ///< largest first, at most 32
+  double difference = 0;              ///< mean |frame - frame before| over the subject's box, code values (duplicates)
+};
+
+/// Keys one frame. Pure and deterministic; any number of threads, one Keyer each.
+class Keyer {
+ public:
+  Keyer(const ScreenModel& screen, const MatteConfig& config);
+  ~Keyer();
+  /// `before`: the frame before, or null for the first (used for `difference` alone).
+  KeyedFrame key(const Frame& frame, const Frame* before);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace vsprite

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// film/plate.h - what the picture looks like without the subject.
+//
+// The screen's colour and spread are measured from sampled frames of the film: a robust surface
+// where the screen has one colour, a robust temporal estimate per pixel where the camera stands.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "film/video.h"
+#include "vsprite/result.h"
+
+namespace vsprite {
+
+enum class KeyKind {
+  Auto,   ///< measured; the reason is reported
+  Color,  ///< a screen of one colour (blue, green, black, white, ...), given or measured
+  Plate,  ///< a standing camera before anything
+  None    ///< the film has no background to remove: the whole frame is the subject
+};
+
+struct KeyConfig {
+  KeyKind kind = KeyKind::Auto;
+  std::uint8_t red = 0, green = 0, blue = 0;  ///< for Color when `color_given`
+  bool color_given = false;
+  int sample_count = 50;  ///< frames looked at, spread over the film, 8..200
+};
+
+/// Parses `auto`, `plate`, `none` or `#RRGGBB`. Errors: BadSetting.
+Result<KeyConfig> parse_key(const std::string& text);
+
+/// The background, per pixel, and how much it varies. Immutable once made.
+struct ScreenModel {
+  KeyKind kind = KeyKind::Color;
+  std::string reason;             ///< why this kind: one sentence for the report
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> plate;  ///< (height, width) BGR
+  float color[3] = {};            ///< median screen colour, R G B, 0..255
+  float noise[3] = {};            ///< rms over time of the bare screen, Y Cb Cr, code values
+  // The keyer's further measurements (kind of key, normaliser, ...) follow here.
+};
+
+/// Measures the screen. `frames`: 8 or more, spread over the film. Errors: BadContent (no steady
+/// background can be found; says what was seen and what to do).
+Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfig& config);
+
+}  // namespace vsprite

@@ -1,0 +1,8 @@
+# SPDX-FileCopyrightText: 2026 the vsprite authors
+# SPDX-License-Identifier: MIT
+target_sources(vsprite_precompute PRIVATE
+  similarity/features.cpp
+  similarity/label.cpp
+  similarity/classifier.cpp
+  similarity/transitions.cpp
+)

@@ -1,0 +1,3 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "similarity/transitions.h"

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the vsprite authors
+# SPDX-License-Identifier: MIT
+# Who may include whom. Nothing points the other way.
+cd "$1" || exit 2
+bad=0
+# forbid PATTERN IN-FILES... : no include that matches PATTERN
+forbid() {
+  local pattern=$1; shift
+  if grep -nE "^[[:space:]]*#[[:space:]]*include[[:space:]]*[<\"]($pattern)" "$@" /dev/null; then
+    echo "^ must not include ($pattern)"; bad=1
+  fi
+}
+src() { find "$@" -name '*.h' -o -name '*.cpp' | sort; }
+forbid 'opencv|film/|similarity/|control/|synthesis/|tool/|window/|Eigen|nlohmann|CLI|spdlog|toml|tbb' $(src engine)
+forbid 'SDL|epoxy|GL|png|zstd|xxh|hwy' $(find engine/include -name '*.h' ! -name sdl.h)
+forbid 'SDL|epoxy|GL' $(find engine/src -name '*.cpp' ! -name draw.cpp ! -name gl.cpp ! -name sdl.cpp -o -name '*.h' -path '*engine/src*')
+forbid 'png\.h' $(find engine/src precompute games -name '*.cpp' ! -path engine/src/png.cpp -o -name '*.h' -path '*precompute*')
+forbid 'opencv' $(src precompute/similarity precompute/control precompute/tool precompute/window) $(find precompute/film -name '*.h')
+forbid 'similarity/|control/|tool/|window/' $(src precompute/film)
+forbid 'control/|tool/|window/' $(src precompute/similarity)
+forbid 'tool/|window/' $(src precompute/control)
+forbid 'SDL|epoxy|imgui|vsprite/draw|vsprite/sdl' $(src precompute/film precompute/similarity precompute/control precompute/tool)
+forbid 'opencv|film/|similarity/|control/|tool/|window/|\.\./engine|src/' $(src games)
+exit $bad
