@@ -33,7 +33,6 @@ Error bad(std::string_view name, const std::string& text, const std::string& due
   return {ErrorCode::BadSetting, "--" + std::string(name) + " " + text + ": " + due + " is due"};
 }
 
-
 /// The name, default and range of a number stand here once; text for people is made from them.
 struct Row {
   std::vector<Option> options;
