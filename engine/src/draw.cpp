@@ -128,7 +128,7 @@ struct Renderer::Impl {
   Camera camera;
 
   Kind kind = Kind::Nothing;
-  Blend blend = Blend::Over;
+  BlendMode blend = BlendMode::Over;
   int page = -1;
   std::vector<float> batch;
   std::vector<std::uint16_t> staging;
@@ -143,7 +143,7 @@ struct Renderer::Impl {
 
   Result<void> set_up();
   void flush();
-  void select(Kind wanted, Blend mode, int wanted_page = -1);
+  void select(Kind wanted, BlendMode mode, int wanted_page = -1);
   void use_surface(Surface* surface);
   void drop_frame();
   std::optional<detail::AtlasSlot> store(const TextureKey& key, ImageView image);
@@ -217,7 +217,7 @@ void Renderer::Impl::flush() {
   ++stats.batches;
 }
 
-void Renderer::Impl::select(Kind wanted, Blend mode, int wanted_page) {
+void Renderer::Impl::select(Kind wanted, BlendMode mode, int wanted_page) {
   if (kind == wanted && blend == mode && page == wanted_page) return;
   flush();
   kind = wanted;
@@ -263,7 +263,7 @@ std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, Im
 
 void Renderer::Impl::push_picture(const detail::AtlasSlot& slot, Vec2 corner, Vec2 x_axis,
                                   Vec2 y_axis, Color tint, Color fog, float fog_amount) {
-  select(Kind::Sprites, Blend::Over, slot.page);
+  select(Kind::Sprites, BlendMode::Over, slot.page);
   const Rect& r = slot.rect;
   push({corner.x, corner.y, 0, 0, x_axis.x, x_axis.y, y_axis.x, y_axis.y});
   push({static_cast<float>(r.x + 1), static_cast<float>(r.y + 1), static_cast<float>(r.width - 2),
@@ -384,7 +384,7 @@ void Renderer::draw_shape(const Shape& s) {
   m.push({s.feather * k, 0, 0, 0, s.color.r, s.color.g, s.color.b, s.color.a});
 }
 
-void Renderer::draw_triangles(std::span<const Vertex> vertices, Blend blend) {
+void Renderer::draw_triangles(std::span<const Vertex> vertices, BlendMode blend) {
   Impl& m = *impl_;
   if (m.target == nullptr) return;
   m.select(Kind::Triangles, blend);
@@ -578,7 +578,7 @@ void Renderer::Impl::encode(bool straight, bool flip) {
   encode_program.set("straight", {straight ? 1.0f : 0.0f});
   encode_program.set("flip", {flip ? 1.0f : 0.0f});
   encode_program.set("dither", {config.dither ? 1.0f : 0.0f});
-  gl::blend(Blend::Replace);
+  gl::blend(BlendMode::Replace);
   gl::draw_rectangle(empty_stream);
 }
 

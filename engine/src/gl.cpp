@@ -239,16 +239,16 @@ void read(const Target& target, std::uint8_t* rgba) {
   glBindFramebuffer(GL_FRAMEBUFFER, before);
 }
 
-void blend(Blend mode) {
-  if (mode == Blend::Replace) {
+void blend(BlendMode mode) {
+  if (mode == BlendMode::Replace) {
     glDisable(GL_BLEND);
     return;
   }
   glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
-  if (mode == Blend::Over) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (mode == Blend::Add) glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
-  if (mode == Blend::Multiply) glBlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE);
+  if (mode == BlendMode::Over) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  if (mode == BlendMode::Add) glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+  if (mode == BlendMode::Multiply) glBlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE);
 }
 
 Stream make_stream(int vectors, bool instanced) {

@@ -72,7 +72,7 @@ void copy(const Target& from, const Target& to);
 void clear(float r, float g, float b, float a);
 void read(const Target& target, std::uint8_t* rgba);
 
-void blend(Blend mode);
+void blend(BlendMode mode);
 
 Stream make_stream(int vectors, bool instanced);
 void free_stream(Stream& stream);
