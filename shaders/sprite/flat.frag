@@ -1,0 +1,5 @@
+// In and out: linear, premultiplied.
+in vec4 flat_tint;
+out vec4 color;
+
+void main() { color = flat_tint; }
