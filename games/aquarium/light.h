@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// light.h - the water between the eye and a thing, and the view of the tank; as in common.glsl.
+// light.h - the water between the eye and a thing, and the view of the tank; as in common.frag.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,7 @@ inline vsprite::Color scaled(vsprite::Color c, float s) noexcept {
   return {c.r * s, c.g * s, c.b * s, c.a};
 }
 
-/// The colour of open water at a place in the tank: water_at of common.glsl.
+/// The colour of open water at a place in the tank: water_at of common.frag.
 inline vsprite::Color water_at(vsprite::Vec2 p) noexcept {
   const float h = std::clamp(p.y / kTankHeight, -0.3f, 1.3f);
   vsprite::Color c =
@@ -57,7 +57,7 @@ inline vsprite::Color water_at(vsprite::Vec2 p) noexcept {
   return scaled(c, 0.50f + 0.62f * std::exp(-middle * middle));
 }
 
-/// What is left of a colour behind `depth` of water: through_water of common.glsl.
+/// What is left of a colour behind `depth` of water: through_water of common.frag.
 inline vsprite::Color through_water(vsprite::Color c, float depth, vsprite::Vec2 p) noexcept {
   const vsprite::Color w = water_at(p);
   const float r = std::exp(-2.6f * depth);

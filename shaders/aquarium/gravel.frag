@@ -4,7 +4,7 @@
 // gravel.frag - the bed of the tank in perspective: fine gravel with river pebbles strewn on it.
 // Drawn once for every size of the window, over wall.frag.
 //
-// Inputs: common.glsl; scene; stones[6] = (centre x, centre y, half width, half height), tank pixels:
+// Inputs: common.frag; scene; stones[6] = (centre x, centre y, half width, half height), tank pixels:
 // what throws a shade. Output: rgb linear; alpha = how much of the light net falls on it.
 uniform vec4 stones[6];
 

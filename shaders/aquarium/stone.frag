@@ -4,7 +4,7 @@
 // stone.frag - one broken boulder, sunk a little into the gravel. Drawn once for every size of the
 // window, from back to front.
 //
-// Inputs: common.glsl; scene; place = (centre x, centre y, half width, half height), tank pixels;
+// Inputs: common.frag; scene; place = (centre x, centre y, half width, half height), tank pixels;
 // look = (seed, moss 0..1, water in between, brightness). Output: rgb linear; alpha = how much of
 // the light net falls on it.
 uniform vec4 place;
@@ -42,9 +42,9 @@ void main() {
   float vein = smoothstep(0.0, 0.035, abs(fbm(q * 0.55 + 4.0) - 0.48));
   c *= 0.45 + 0.55 * vein;
   float green = look.y * smoothstep(0.30, 0.72, n.y + 0.7 * (fbm(q * 1.4 + 2.0) - 0.5));
-  c = mix(c, vec3(0.040, 0.105, 0.016) * (0.5 + 1.2 * noise(q * 8.0)), green);
+  c = mix(c, vec3(0.026, 0.066, 0.010) * (0.5 + 1.2 * noise(q * 8.0)), green);
   float foot = 0.18 + 0.82 * smoothstep(0.62, -0.25, d.y);
   c *= lit * foot * look.w;
   color = vec4(mix(behind.rgb, through_water(c, look.z, p), cover),
-               mix(behind.a, 0.65 * max(n.y + 0.25, 0.0) * foot, cover));
+               mix(behind.a, 0.30 * max(n.y + 0.25, 0.0) * foot, cover));
 }

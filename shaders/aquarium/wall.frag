@@ -4,7 +4,7 @@
 // wall.frag - the far end of the tank: open water, then ridges and weeds, soft as far things are.
 // Drawn once for every size of the window.
 //
-// Inputs: common.glsl. Output: rgb linear; alpha 0: the light net does not reach it.
+// Inputs: common.frag. Output: rgb linear; alpha 0: the light net does not reach it.
 
 void main() {
   vec2 p = tank_at(pixel);

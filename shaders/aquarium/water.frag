@@ -3,7 +3,7 @@
 //
 // water.frag - the tank behind the fish: backdrop, light net on the gravel, surface, light shafts.
 //
-// Inputs: common.glsl; backdrop, drawn by wall, gravel, wood and stone; caustics, a tile by
+// Inputs: common.frag; backdrop, drawn by wall, gravel, wood and stone; caustics, a tile by
 // caustics.frag; time, seconds. Output: linear light, opaque.
 uniform sampler2D backdrop;
 uniform sampler2D caustics;
@@ -16,7 +16,7 @@ vec2 net_at(vec2 turns) {
 
 void main() {
   vec2 p = tank_at(pixel);
-  vec4 base = texture(backdrop, vec2(pixel.x, frame_size.y - pixel.y) / frame_size);
+  vec4 base = texture(backdrop, pixel / frame_size);
   vec3 c = base.rgb;
 
   // The net on gravel and stones: two sheets of waves, the darker one counts.

@@ -4,7 +4,7 @@
 // wood.frag - a root of driftwood: bowed, tapering limbs with bark. Drawn once for every size of the
 // window.
 //
-// Inputs: common.glsl; scene. Output: rgb linear; alpha = how much of the light net falls on it.
+// Inputs: common.frag; scene. Output: rgb linear; alpha = how much of the light net falls on it.
 
 struct Limb {
   float reach;   // distance from the middle line / radius
@@ -34,7 +34,7 @@ void main() {
   grow(best, q, vec2(276, 500), vec2(440, 340), 25.0, 5.0, 24.0);
   grow(best, q, vec2(214, 530), vec2(232, 352), 22.0, 4.5, -18.0);
   grow(best, q, vec2(296, 486), vec2(482, 470), 17.0, 3.0, -22.0);
-  grow(best, q, vec2(244, 440), vec2(168, 326), 9.0, 2.0, 14.0);
+  grow(best, q, vec2(212, 446), vec2(150, 334), 9.0, 2.0, 12.0);
   grow(best, q, vec2(372, 440), vec2(366, 322), 9.0, 2.0, -10.0);
   grow(best, q, vec2(396, 470), vec2(462, 412), 7.0, 1.8, 9.0);
   grow(best, q, vec2(150, 590), vec2(16, 520), 22.0, 7.0, 16.0);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// common.glsl - stands before every effect of the tank: the view, noise, and the water in between.
+// common.frag - stands before every effect of the tank: the view, noise, and the water in between.
 //
 // Inputs: view = (offset x, offset y, scale): frame pixel = tank pixel * scale + offset. Tank pixels:
 // 1280 x 720, y down, surface at 0. All colours linear.
