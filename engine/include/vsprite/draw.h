@@ -50,7 +50,7 @@ struct Color {
 Color srgb(std::uint32_t rgb, float alpha = 1) noexcept;
 
 /// How what is drawn meets what is there.
-enum class Blend : std::uint8_t {
+enum class BlendMode : std::uint8_t {
   Over,      ///< src + (1 - src.a) dst
   Add,       ///< src + dst: light
   Multiply,  ///< src dst: shade
@@ -95,7 +95,7 @@ struct Shape {
   float outline = 0;  ///< 0: filled; else the width of a line that lies inside the edge
   float feather = 0;  ///< width over which the edge fades, beyond one pixel
   Color color;
-  Blend blend = Blend::Over;
+  BlendMode blend = BlendMode::Over;
 };
 Shape disc(Vec2 center, float radius, Color color) noexcept;
 Shape line(Vec2 from, Vec2 to, float width, Color color) noexcept;
@@ -147,7 +147,7 @@ struct Uniform {
 
 struct EffectPass {
   Rect area;  ///< frame pixels (the camera is not applied); width 0: the whole frame
-  Blend blend = Blend::Over;
+  BlendMode blend = BlendMode::Over;
 };
 
 struct RendererConfig {
@@ -184,7 +184,7 @@ class Renderer {
 
   void draw_shape(const Shape& shape);
   /// Three vertices a triangle, filled, edges not smoothed.
-  void draw_triangles(std::span<const Vertex> vertices, Blend blend = Blend::Over);
+  void draw_triangles(std::span<const Vertex> vertices, BlendMode blend = BlendMode::Over);
   /// A convex polygon with smooth edges, corners in clockwise order (y down).
   void draw_polygon(std::span<const Vec2> corners, Color color);
   /// `position`: left end (or centre, or right end) of the first line's top. ASCII, arrows
