@@ -13,7 +13,7 @@
 namespace aquarium {
 
 namespace glsl = vsprite::shaders::aquarium;
-using vsprite::Blend;
+using vsprite::BlendMode;
 using vsprite::Color;
 using vsprite::Effect;
 using vsprite::Layer;
@@ -121,7 +121,7 @@ void Scene::draw_backdrop(Renderer& renderer) {
 
   const Uniform view = view_uniform(view_);
   const auto area = [&](Box box) {
-    return vsprite::EffectPass{frame_area(view_, box, width, height), Blend::Replace};
+    return vsprite::EffectPass{frame_area(view_, box, width, height), BlendMode::Replace};
   };
   const auto put = [&](const Stone& s) {
     const std::array<float, 4> place{s.x, s.y, s.half_width, s.half_height};
@@ -132,7 +132,7 @@ void Scene::draw_backdrop(Renderer& renderer) {
         stone_, std::array{view, Uniform("place", place, 4), Uniform("look", s.look, 4)}, pass);
   };
   renderer.begin_layer(backdrop_);
-  renderer.run_effect(wall_, {&view, 1}, {{}, Blend::Replace});
+  renderer.run_effect(wall_, {&view, 1}, {{}, BlendMode::Replace});
   renderer.run_effect(gravel_, std::array{view, Uniform("stones", kShades, 4)},
                       area({-1e5f, 552, 1e5f, 1e5f}));
   for (const Stone& stone : kStonesBehindWood) put(stone);
@@ -144,14 +144,14 @@ void Scene::draw_backdrop(Renderer& renderer) {
 void Scene::draw_water(Renderer& renderer, float seconds) {
   const Uniform time("time", std::fmod(seconds, 3600.0f));
   renderer.begin_layer(net_);
-  renderer.run_effect(caustics_, {&time, 1}, {{}, Blend::Replace});
+  renderer.run_effect(caustics_, {&time, 1}, {{}, BlendMode::Replace});
   renderer.end_layer();
 
   const auto run = [&](const View& view) {
     renderer.run_effect(water_,
                         std::array{view_uniform(view), time, Uniform("backdrop", backdrop_),
                                    Uniform("caustics", net_)},
-                        {{}, Blend::Replace});
+                        {{}, BlendMode::Replace});
   };
   if (quality_ == Quality::High) return run(view_);
   const int divisor = quality_ == Quality::Middle ? 2 : 3;
@@ -168,7 +168,7 @@ void Scene::draw_water(Renderer& renderer, float seconds) {
   renderer.begin_layer(coarse_);
   run({view_.scale * k, {view_.offset.x * k, view_.offset.y * k}});
   renderer.end_layer();
-  renderer.draw_layer(coarse_, {{}, Blend::Replace});
+  renderer.draw_layer(coarse_, {{}, BlendMode::Replace});
 }
 
 void Scene::draw_plants(Renderer& renderer, const Moment& moment, float far, float near) {
@@ -217,7 +217,7 @@ void Scene::draw_food(Renderer& renderer, const Moment& moment) const {
     const float light = 0.35f + shimmer(at, moment.seconds);
     Shape halo = vsprite::disc(at, 1.2f * flake.size, {1.0f, 0.62f, 0.25f, 0.10f * fade * fresh});
     halo.feather = 2.2f * flake.size;
-    halo.blend = Blend::Add;
+    halo.blend = BlendMode::Add;
     if (flake.dainty) {
       halo.color = {1.0f, 0.55f, 0.15f, 0.34f * fade * fresh};
       halo.feather = 3.4f * flake.size;
@@ -270,7 +270,7 @@ void Scene::draw_sparks(Renderer& renderer, float seconds) {
       Shape dot = vsprite::disc(p, (mine ? 3.4f : 2.2f) * (1 - age) + 0.4f,
                                 {1.0f, 0.72f, 0.30f, (mine ? 0.9f : 0.4f) * fade});
       dot.feather = 3;
-      dot.blend = Blend::Add;
+      dot.blend = BlendMode::Add;
       renderer.draw_shape(dot);
     }
     if (!mine) continue;
@@ -334,7 +334,7 @@ void Scene::draw_motes(Renderer& renderer, float seconds) const {
     Shape mote = vsprite::disc({x, y}, 0.7f + 1.3f * near * near,
                                {0.55f, 0.85f, 0.80f, (0.10f + 0.34f * near) * twinkle});
     mote.feather = 0.8f + 3.5f * near * near;
-    mote.blend = Blend::Add;
+    mote.blend = BlendMode::Add;
     renderer.draw_shape(mote);
   }
 }
