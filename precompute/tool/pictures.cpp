@@ -11,7 +11,6 @@ namespace vsprite {
 namespace {
 
 constexpr int kBatch = 64;
-constexpr int kFeatureGrid = 64;
 
 int image_side(double film_side, double scale) {
   return static_cast<int>(std::lround(film_side * scale));
@@ -84,7 +83,7 @@ Result<LoadedSprites> load_sprites(const Project& project) {
     loaded.body_sides.push_back(body_side(*picture));
     return std::move(*picture);
   };
-  loaded.features = make_feature_set(*rows, film->fps(), kFeatureGrid, next);
+  loaded.features = make_feature_set(*rows, film->fps(), FeatureSet{}.grid, next);
   if (fault) return *fault;
   return loaded;
 }

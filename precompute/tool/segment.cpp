@@ -331,7 +331,8 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
                              .min_clip = run.settings.min_clip};
   const double fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
   const auto extraction = extract(*summaries, fps, name, config);
-  if (!extraction) return extraction.error();
+  if (!extraction)
+    return Error{extraction.error().code, run.film + ": " + extraction.error().message};
 
   const std::string table = format_samples(extraction->rows);
   const auto resumed = store->resume_cutting(hex64(hash_bytes(table)),

@@ -20,7 +20,7 @@ struct StageListener {
   std::function<void(const std::string& stage)> begin;
   std::function<void(double fraction)> progress;  ///< 0..1, from one thread at a time
   std::function<void(const std::string& text)> note;
-  std::function<void(const std::string& stage)> end;
+  std::function<void(const std::string& stage, bool skipped)> end;
 };
 
 /// One stage's line in the report.
@@ -40,7 +40,8 @@ struct StageRun {
   std::string film;
   std::string pack;
   StageListener listener;
-  std::optional<LoadedSprites> sprites;  ///< read once, used by several stages
+  std::optional<LoadedSprites> sprites = {};    ///< read once, used by several stages
+  std::optional<std::string> sprites_sum = {};  ///< likewise
 };
 
 /// Runs the stages `first`..`last` of kStages, by index. Stops at the first error: everything that
