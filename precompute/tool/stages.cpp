@@ -263,7 +263,8 @@ Result<bool> is_due(StageRun& run, const Stage& stage, const StageKey& key) {
   if (run.project.is_current(key)) {
     if (as_made || (output && stage.editable)) return false;
     if (stage.editable) return output.error();  // a file of it is missing or damaged: named
-    if (run.listener.note) run.listener.note("what it made has changed since: made again");
+    if (output && run.listener.note)
+      run.listener.note("what it made has changed since: made again");
     return true;
   }
   if (output && !as_made && stage.editable)
@@ -336,8 +337,8 @@ Result<std::vector<StageOutcome>> run_stages(StageRun& run, int first, int last)
   for (int index = first; index <= last; ++index) {
     if (run.listener.begin) run.listener.begin(kStages[index]);
     auto outcome = run_stage(run, index);
-    if (run.listener.end) run.listener.end(kStages[index], outcome && outcome->skipped);
     if (!outcome) return outcome.error();
+    if (run.listener.end) run.listener.end(kStages[index], outcome->skipped);
     outcomes.push_back(std::move(*outcome));
     // What a finished segmentation kept for its own resumption is of no use any more.
     std::error_code ignored;

@@ -39,7 +39,7 @@ Console::Console(std::string verb, const Settings& settings)
   if (asked == "none" || (quiet_ && asked == "auto"))
     mode_ = Mode::None;
   else if (asked == "json")
-    mode_ = Mode::Json;
+    mode_ = Mode::JsonLines;
   else if (asked == "bar" || (asked == "auto" && ::isatty(STDERR_FILENO) == 1 && !is_set("CI")))
     mode_ = Mode::Bar;
 }
@@ -93,14 +93,15 @@ void Console::begin_stage(const std::string& stage) {
 }
 
 void Console::show_progress(double fraction) {
+  const std::lock_guard lock(guard_);
   const int percent = static_cast<int>(100 * fraction);
   const int grain = mode_ == Mode::Bar ? 1 : 10;
-  if (mode_ == Mode::None || percent / grain <= shown_ / grain - (shown_ < 0 ? 1 : 0)) return;
+  if (mode_ == Mode::None || (shown_ >= 0 && percent / grain <= shown_ / grain)) return;
   shown_ = percent;
   const double spent =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
   const double left = fraction > 0.01 ? spent * (1 - fraction) / fraction : 0;
-  if (mode_ == Mode::Json) {
+  if (mode_ == Mode::JsonLines) {
     const Json line = {{"stage", stage_}, {"fraction", fraction}, {"eta_seconds", left}};
     std::fprintf(stderr, "%s\n", line.dump().c_str());
   } else if (mode_ == Mode::Lines) {
@@ -119,7 +120,7 @@ void Console::end_stage(const std::string& stage, bool skipped) {
   if (mode_ == Mode::None) return;
   const double spent =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
-  if (mode_ == Mode::Json) {
+  if (mode_ == Mode::JsonLines) {
     const Json line = {{"stage", stage}, {"fraction", 1}, {"skipped", skipped}, {"seconds", spent}};
     std::fprintf(stderr, "%s\n", line.dump().c_str());
   } else if (skipped) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <mutex>
 #include <string>
 
 #include "tool/project.h"
@@ -13,6 +14,7 @@
 
 namespace vsprite {
 
+/// One run of the tool on its streams.
 class Console {
  public:
   Console(std::string verb, const Settings& settings);
@@ -32,7 +34,7 @@ class Console {
   StageListener listener();
 
  private:
-  enum class Mode { None, Bar, Lines, Json };
+  enum class Mode { None, Bar, Lines, JsonLines };
   void begin_stage(const std::string& stage);
   void show_progress(double fraction);
   void end_stage(const std::string& stage, bool skipped);
@@ -43,7 +45,8 @@ class Console {
   Mode mode_;
   std::string stage_;
   std::chrono::steady_clock::time_point begun_;
-  int shown_ = -1;  ///< percent
+  int shown_ = -1;    ///< percent
+  std::mutex guard_;  ///< progress may come from any thread
 };
 
 /// The process's exit code (DESIGN section 4).
