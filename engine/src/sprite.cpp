@@ -1,2 +1,380 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
+//
+// The immutable asset: checking what playing relies on, looking up costs, decoding pictures.
+#include "vsprite/sprite.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "pack_format.h"
+
+namespace vsprite {
+namespace detail {
+namespace {
+
+bool is_natural(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
+  return to == from + 1 && data.samples[to].clip == data.samples[from].clip;
+}
+
+// The CSR entry of a jump, or null.
+const Transition* find_transition(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
+  const auto* first = data.transitions.data() + data.row_start[from];
+  const auto* last = data.transitions.data() + data.row_start[from + 1];
+  const auto* found = std::lower_bound(
+      first, last, to, [](const Transition& t, std::uint32_t sample) { return t.to < sample; });
+  return found != last && found->to == to ? found : nullptr;
+}
+
+std::string number(std::uint64_t value) { return std::to_string(value); }
+
+Check check_text(const std::string& text, std::string_view section, const std::string& what) {
+  const bool control = std::any_of(text.begin(), text.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 || c == 0x7F;
+  });
+  if (text.size() <= kMaxText && !control) return {};
+  return finding("text", section, 0,
+                 what + (control ? ": holds a control character"
+                                 : ": " + number(text.size()) + " bytes, at most 255 are due"));
+}
+
+Check check_meta(const SpriteData& data) {
+  const std::size_t n = data.samples.size();
+  if (n == 0 || n > kMaxSamples) {
+    return finding("sample-count", "META", 0,
+                   number(n) + " samples, 1 to " + number(kMaxSamples) + " are due");
+  }
+  if (data.fps_numerator == 0 || data.fps_denominator == 0) {
+    return finding("fps", "META", 0,
+                   "rate of " + number(data.fps_numerator) + "/" + number(data.fps_denominator) +
+                       " ticks a second, more than 0 is due");
+  }
+  if (!std::isfinite(data.body_length) || data.body_length < 0) {
+    return finding("body-length", "META", 0, "body length is not a finite number of pixels >= 0");
+  }
+  if (data.tags.empty() || data.tags.size() > kMaxTags) {
+    return finding("tag-count", "META", 0,
+                   number(data.tags.size()) + " tags, 1 to " + number(kMaxTags) + " are due");
+  }
+  if (Check bad = check_text(data.name, "META", "name")) return bad;
+  for (std::size_t t = 0; t < data.tags.size(); ++t) {
+    if (Check bad = check_text(data.tags[t], "META", "tag " + number(t))) return bad;
+  }
+  if (data.start_sample >= n || data.samples[data.start_sample].kept != 1) {
+    return finding("start-sample", "META", 0,
+                   "start sample " + number(data.start_sample) + " is not a kept sample");
+  }
+  return {};
+}
+
+Check check_sample(const SpriteData& data, std::size_t i) {
+  const Sample& s = data.samples[i];
+  const std::string what = "sample " + number(i) + ": ";
+  const bool finite = std::isfinite(s.anchor.x) && std::isfinite(s.anchor.y) &&
+                      std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) &&
+                      std::isfinite(s.area) && std::isfinite(s.scale);
+  if (!finite)
+    return finding("sample-value", "SAMP", 0, what + "holds a number that is not finite");
+  if (s.area < 0 || s.scale <= 0) {
+    return finding("sample-range", "SAMP", 0, what + "area below 0 or scale not above 0");
+  }
+  if (s.duration < 1) return finding("duration", "SAMP", 0, what + "duration 0, at least 1 is due");
+  if (s.tag >= data.tags.size()) {
+    return finding("tag-index", "SAMP", 0,
+                   what + "tag " + number(s.tag) + " of " + number(data.tags.size()));
+  }
+  if (s.mirror_of != kNoSample && s.mirror_of >= data.samples.size()) {
+    return finding(
+        "mirror-index", "SAMP", 0,
+        what + "mirror of sample " + number(s.mirror_of) + " of " + number(data.samples.size()));
+  }
+  if (s.kept > 1) {
+    return finding("kept-flag", "SAMP", 0, what + "kept is " + number(s.kept) + ", 0 or 1 is due");
+  }
+  if (std::uint64_t{s.width} * s.height > kMaxPixels) {
+    return finding("picture-size", "SAMP", 0,
+                   what + "picture of " + number(s.width) + " x " + number(s.height) +
+                       " pixels, at most " + number(kMaxPixels) + " pixels are due",
+                   ErrorCode::LimitExceeded);
+  }
+  return {};
+}
+
+Check check_row(const SpriteData& data, std::uint32_t i) {
+  const auto row = [&](std::string_view code, const std::string& what) {
+    return finding(code, "TRAN", 0, "transitions of sample " + number(i) + ": " + what);
+  };
+  std::int64_t before = -1;
+  for (std::uint32_t k = data.row_start[i]; k < data.row_start[i + 1]; ++k) {
+    const Transition& t = data.transitions[k];
+    if (t.to >= data.samples.size()) {
+      return row("transition-index",
+                 "to sample " + number(t.to) + " of " + number(data.samples.size()));
+    }
+    if (t.to <= before) return row("transition-order", "not in ascending order");
+    if (!std::isfinite(t.cost) || t.cost < 0) {
+      return row("transition-cost",
+                 "the cost to sample " + number(t.to) + " is not a finite number >= 0");
+    }
+    if (data.samples[i].kept == 0 || data.samples[t.to].kept == 0) {
+      return row("transition-kept", "from or to a sample that was not kept");
+    }
+    before = t.to;
+  }
+  return {};
+}
+
+Check check_transitions(const SpriteData& data) {
+  const std::size_t n = data.samples.size();
+  const auto& row = data.row_start;
+  const bool ends = row.size() == n + 1 && row.front() == 0 &&
+                    row.back() == data.transitions.size() &&
+                    data.transitions.size() <= kMaxTransitions;
+  if (!ends || !std::is_sorted(row.begin(), row.end())) {
+    return finding(
+        "row-order", "TRAN", 0,
+        "the row starts do not ascend from 0 to the number of transitions, one a sample");
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (Check bad = check_row(data, i)) return bad;
+  }
+  return {};
+}
+
+Check check_mode_settings(const ControlMode& mode, const std::string& what) {
+  if (mode.name.empty()) return finding("mode-name", "CTRL", 0, what + "has no name");
+  if (Check bad = check_text(mode.name, "CTRL", what + "name")) return bad;
+  if (!(mode.alpha >= 0 && mode.alpha < 1)) {
+    return finding("alpha", "CTRL", 0, what + "alpha is not in [0, 1)");
+  }
+  if (!(std::isfinite(mode.w1) && mode.w1 >= 0)) {
+    return finding("w1", "CTRL", 0, what + "w1 is not a finite number >= 0");
+  }
+  if (!(mode.cap >= 0)) return finding("cap", "CTRL", 0, what + "cap is not a number >= 0");
+  if (mode.stages < 1 || mode.stages > kMaxStages) {
+    return finding("stages", "CTRL", 0,
+                   what + number(mode.stages) + " stages, 1 to " + number(kMaxStages) + " are due");
+  }
+  for (Direction d : mode.table_of) {
+    if (static_cast<int>(d) >= kDirectionCount) {
+      return finding("table-of", "CTRL", 0,
+                     what + "follows direction " + number(static_cast<unsigned>(d)) + " of 10");
+    }
+  }
+  if (mode.served >> kDirectionCount != 0) {
+    return finding("served", "CTRL", 0, what + "serves directions beyond the tenth");
+  }
+  const bool bounds = std::isfinite(mode.residual) && mode.residual >= 0 &&
+                      std::isfinite(mode.error_bound) && mode.error_bound >= 0;
+  if (!bounds) {
+    return finding("residual", "CTRL", 0,
+                   what + "residual or error bound is not a finite number >= 0");
+  }
+  return {};
+}
+
+// Every kept sample must lead to a kept one along a transition that exists.
+Check check_next(const SpriteData& data, const ControlMode& mode, const std::string& what) {
+  const std::size_t n = data.samples.size();
+  if (mode.next.size() != std::size_t{kDirectionCount} * mode.stages * n) {
+    return finding("next-size", "CTRL", 0,
+                   what + number(mode.next.size()) + " entries of next, " +
+                       number(std::size_t{kDirectionCount} * mode.stages * n) + " are due");
+  }
+  for (std::size_t k = 0; k < mode.next.size(); ++k) {
+    const auto from = static_cast<std::uint32_t>(k % n);
+    const std::uint32_t to = mode.next[k];
+    const std::string where = what + "table " + number(k / n) + ", sample " + number(from) + ": ";
+    if (data.samples[from].kept == 0) {
+      if (to == kNoSample) continue;
+      return finding("next-unkept", "CTRL", 0, where + "was not kept but has a next");
+    }
+    if (to >= n) {
+      return finding("next-index", "CTRL", 0,
+                     where + "next is sample " + number(to) + " of " + number(n));
+    }
+    if (data.samples[to].kept == 0) {
+      return finding("next-kept", "CTRL", 0,
+                     where + "next is sample " + number(to) + ", which was not kept");
+    }
+    if (!is_natural(data, from, to) && !find_transition(data, from, to)) {
+      return finding("next-transition", "CTRL", 0,
+                     where + "next is sample " + number(to) + ", but there is no such transition");
+    }
+  }
+  return {};
+}
+
+Check check_modes(const SpriteData& data) {
+  if (data.modes.empty() || data.modes.size() > kMaxModes) {
+    return finding("mode-count", "CTRL", 0,
+                   number(data.modes.size()) + " modes, 1 to " + number(kMaxModes) + " are due");
+  }
+  for (std::size_t m = 0; m < data.modes.size(); ++m) {
+    const std::string what = "mode " + number(m) + ": ";
+    if (Check bad = check_mode_settings(data.modes[m], what)) return bad;
+    if (Check bad = check_next(data, data.modes[m], what)) return bad;
+    for (std::size_t other = 0; other < m; ++other) {
+      if (data.modes[other].name == data.modes[m].name) {
+        return finding("mode-name", "CTRL", 0, what + "has the name of mode " + number(other));
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Finding finding(std::string_view code, std::string_view section, std::uint64_t offset,
+                std::string message, ErrorCode error) {
+  return {error, {std::string(code), "error", std::string(section), offset, std::move(message)}};
+}
+
+Check check_sprite_data(const SpriteData& data) {
+  if (Check bad = check_meta(data)) return bad;
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    if (Check bad = check_sample(data, i)) return bad;
+  }
+  if (Check bad = check_transitions(data)) return bad;
+  return check_modes(data);
+}
+
+Check check_picture_sizes(const SpriteData& data) {
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    const Sample& s = data.samples[i];
+    const bool has_picture = s.width != 0 && s.height != 0;
+    const bool no_picture = s.width == 0 && s.height == 0;
+    if (s.kept == 1 ? has_picture : no_picture) continue;
+    return finding("picture-size", "SAMP", 0,
+                   "sample " + number(i) + ": picture of " + number(s.width) + " x " +
+                       number(s.height) + " pixels for a sample that was " +
+                       (s.kept == 1 ? "kept" : "not kept"));
+  }
+  return {};
+}
+
+}  // namespace detail
+
+Sprite::Sprite(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}
+Sprite::Sprite(Sprite&&) noexcept = default;
+Sprite& Sprite::operator=(Sprite&&) noexcept = default;
+Sprite::~Sprite() = default;
+
+const SpriteData& Sprite::data() const noexcept { return impl_->data; }
+
+std::span<const Transition> Sprite::transitions(std::uint32_t sample) const noexcept {
+  const SpriteData& d = impl_->data;
+  return {d.transitions.data() + d.row_start[sample],
+          d.row_start[sample + 1] - d.row_start[sample]};
+}
+
+double Sprite::fps() const noexcept {
+  return static_cast<double>(impl_->data.fps_numerator) / impl_->data.fps_denominator;
+}
+
+bool Sprite::is_natural(std::uint32_t from, std::uint32_t to) const noexcept {
+  return to < impl_->data.samples.size() && detail::is_natural(impl_->data, from, to);
+}
+
+float Sprite::transition_cost(std::uint32_t from, std::uint32_t to) const noexcept {
+  if (is_natural(from, to)) return 0;
+  const Transition* found = detail::find_transition(impl_->data, from, to);
+  return found ? found->cost : std::numeric_limits<float>::infinity();
+}
+
+int Sprite::find_mode(std::string_view name) const noexcept {
+  const auto& modes = impl_->data.modes;
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    if (modes[m].name == name) return static_cast<int>(m);
+  }
+  return -1;
+}
+
+namespace {
+
+// Borrows a decoder from the sprite's idle ones, so that any number of threads may decode at once
+// and none pays for a new zstd context each time.
+class BorrowedCodec {
+ public:
+  explicit BorrowedCodec(Sprite::Impl& impl) : impl_(impl) {
+    const std::lock_guard lock(impl.mutex);
+    if (impl.idle.empty()) {
+      codec_ = std::make_unique<detail::FrameCodec>();
+      impl.idle.reserve(++impl.codecs);  // so that giving back cannot fail
+    } else {
+      codec_ = std::move(impl.idle.back());
+      impl.idle.pop_back();
+    }
+  }
+  BorrowedCodec(const BorrowedCodec&) = delete;
+  BorrowedCodec& operator=(const BorrowedCodec&) = delete;
+  ~BorrowedCodec() {
+    const std::lock_guard lock(impl_.mutex);
+    impl_.idle.push_back(std::move(codec_));
+  }
+  detail::FrameCodec* operator->() { return codec_.get(); }
+
+ private:
+  Sprite::Impl& impl_;
+  std::unique_ptr<detail::FrameCodec> codec_;
+};
+
+Result<void> decode(Sprite::Impl& impl, std::uint32_t sample, Image& out) {
+  const Sample& s = impl.data.samples[sample];
+  const detail::FrameEntry& entry = impl.frames[sample];
+  BorrowedCodec codec(impl);
+  codec->buffer.resize(entry.bytes);
+  if (auto read = impl.source.read(impl.fram_offset + entry.offset, codec->buffer); !read) {
+    return read.error();
+  }
+  if (detail::hash_bytes(codec->buffer) == entry.sum &&
+      codec->decode(codec->buffer, s.width, s.height, out)) {
+    return {};
+  }
+  return Error{ErrorCode::CorruptData, impl.source.name() + ": picture of sample " +
+                                           std::to_string(sample) + " is damaged"};
+}
+
+}  // namespace
+
+Result<void> Sprite::decode_frame(std::uint32_t sample, Image& out) const {
+  assert(sample < impl_->data.samples.size());
+  try {
+    if (impl_->frames.empty() || impl_->data.samples[sample].kept == 0) {
+      out.width = out.height = 0;
+      out.rgba.clear();
+      return {};
+    }
+    return decode(*impl_, sample, out);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory,
+                 "out of memory for the picture of sample " + std::to_string(sample)};
+  }
+}
+
+Result<Sprite> make_sprite(SpriteData data) {
+  try {
+    if (detail::Check bad = detail::check_sprite_data(data)) {
+      return Error{bad->error, bad->issue.section + ": " + bad->issue.message};
+    }
+    auto impl = std::make_unique<Sprite::Impl>();
+    impl->data = std::move(data);
+    return Sprite(std::move(impl));
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory, "out of memory for a sprite"};
+  }
+}
+
+std::int32_t step_per_tick(float velocity, std::uint32_t fps_numerator,
+                           std::uint32_t fps_denominator) noexcept {
+  const double step = static_cast<double>(velocity) * fps_denominator / fps_numerator * kFixedOne;
+  constexpr double kMost = 2147483647.0;
+  const double rounded = std::floor(step + 0.5);
+  if (!(std::fabs(rounded) < kMost))
+    return rounded > 0 ? 2147483647 : rounded < 0 ? -2147483647 : 0;
+  return static_cast<std::int32_t>(rounded);
+}
+
+}  // namespace vsprite

@@ -1,18 +1,22 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// vsprite/actor.h - one character: a few dozen bytes that a game may copy, save, roll back and send.
+// vsprite/actor.h - one character: a few dozen bytes that a game may copy, save, roll back and
+// send.
 //
-// A tick is one frame of the film. Every tick the actor moves by its sample's `step`; when the
-// sample has been shown for its duration, the table of the commanded direction names the next one.
-// A command takes effect at the next sample. On a change of command the paper's switching chain is
-// entered at stage K and left one stage a sample:
+// A tick is one frame of the film. At the end of a tick the actor moves by the `step` of the sample
+// that was shown during it (so draw_position, which runs ahead along that same step, never jumps);
+// then, when the sample has been shown for its duration, the table of the commanded direction names
+// the next one. A command is read every tick and acted on at the next sample. On a change of
+// command the paper's switching chain is entered at stage K and left one stage a sample:
 //
-//     V^k_i = min_j [T_ij + a V^(k-1)_j],  k = 1..K,   V^0 the constrained table  [NIPS section 4.1]
+//     V^k_i = min_j [T_ij + a V^(k-1)_j],  k = 1..K,   V^0 the constrained table  [NIPS
+//     section 4.1]
 //
 // Same pack, same seed, same commands: the same states, for ever, on every machine.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -23,28 +27,31 @@ namespace vsprite {
 
 /// Plain state; only meaningful together with the Sprite that it was made for.
 struct Actor {
-  Position position;            ///< of the anchor, 1/65536 px, game coordinates
-  std::uint64_t tick = 0;       ///< ticks since make_actor
-  std::uint64_t random = 0;     ///< state of the generator; drives variety only
-  std::uint32_t sample = 0;     ///< shown now
-  std::uint16_t shown = 0;      ///< ticks that `sample` has been shown, 1..duration
-  std::uint8_t mode = 0;        ///< index into SpriteData::modes
+  Position position;                      ///< of the anchor, 1/65536 px, game coordinates
+  std::uint64_t tick = 0;                 ///< ticks since make_actor
+  std::uint64_t random = 0;               ///< state of the generator; drives variety only
+  std::uint32_t sample = 0;               ///< shown now
+  std::uint16_t shown = 0;                ///< ticks that `sample` has been shown, 1..duration
+  std::uint8_t mode = 0;                  ///< index into SpriteData::modes
   Direction direction = Direction::None;  ///< as commanded
-  std::uint8_t stage = 0;       ///< free steps left
-  std::uint8_t table = 0;       ///< table that chose `sample`: direction followed * stages + stage
-  std::uint8_t jumped = 0;      ///< 1 if this tick shows a sample that is not its predecessor's successor
-  std::uint8_t padding = 0;     ///< zero, so that states may be compared as bytes
+  std::uint8_t stage = 0;                 ///< free steps left
+  std::uint8_t table = 0;  ///< table that chose `sample`: direction followed * stages + stage
+  std::uint8_t jumped =
+      0;  ///< 1 if this tick shows a sample that is not its predecessor's successor
+  std::uint8_t padding = 0;  ///< zero, so that states may be compared as bytes
 };
 static_assert(std::is_trivially_copyable_v<Actor>);
 
 /// At (x, y), showing the sprite's start sample, direction None.
-Actor make_actor(const Sprite& sprite, Vec2 position = {}, std::uint64_t seed = 0, int mode = 0) noexcept;
+Actor make_actor(const Sprite& sprite, Vec2 position = {}, std::uint64_t seed = 0,
+                 int mode = 0) noexcept;
 
-/// Commands a direction; the same direction again changes nothing. O(1).
+/// Commands a direction. The same direction again, or another one that follows the same tables
+/// (ControlMode::table_of), restarts nothing. O(1).
 void set_direction(const Sprite& sprite, Actor& actor, Direction direction) noexcept;
 
-/// Commands the direction that leads to `target`, with hysteresis at the sector borders; Rest once
-/// within `arrive_radius` px. Call it every tick.
+/// Commands the direction that leads to `target`; Rest once within `arrive_radius` px. Hysteresis:
+/// a direction is kept until it is 30 degrees off, rest until 1.5 radii away. Call it every tick.
 void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_radius) noexcept;
 
 /// One tick. Never fails, allocates, locks or logs. O(1).
@@ -60,16 +67,17 @@ float shown_cost(const Sprite& sprite, std::uint32_t before, const Actor& after)
 /// Running XXH3-64 over ticks, as DESIGN section 4 defines states_hash. Not thread-safe.
 class StateHash {
  public:
-  StateHash();
-  ~StateHash();
+  static constexpr std::size_t kStateBytes = 640;
+  StateHash() noexcept;
   StateHash(const StateHash&) = delete;
   StateHash& operator=(const StateHash&) = delete;
-  /// Appends, little-endian: tick u64, sample u32, x i64, y i64, direction u8, table u8.
+  /// Call it after every step. Appends, little-endian: tick u64, sample u32, x i64, y i64,
+  /// direction u8, table u8.
   void add(const Actor& actor) noexcept;
   std::uint64_t digest() const noexcept;
 
  private:
-  void* state_;
+  alignas(64) std::byte state_[kStateBytes];
 };
 
 }  // namespace vsprite

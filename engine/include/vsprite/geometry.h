@@ -45,10 +45,22 @@ inline Vec2 to_pixels(Position p) noexcept {
           static_cast<float>(static_cast<double>(p.y) / kFixedOne)};
 }
 
+/// Pixels to fixed point, rounded to nearest; NaN counts as 0, and beyond 2^46 px as 2^46.
+Position to_position(Vec2 pixels) noexcept;
+
 /// What a sprite is told to do: one of eight compass directions (clockwise from right), to carry on
 /// by itself, or to come to rest. The numbers stand in packs and replays and never change.
 enum class Direction : std::uint8_t {
-  Right, RightDown, Down, LeftDown, Left, LeftUp, Up, RightUp, None, Rest
+  Right,
+  RightDown,
+  Down,
+  LeftDown,
+  Left,
+  LeftUp,
+  Up,
+  RightUp,
+  None,
+  Rest
 };
 inline constexpr int kCompassCount = 8;     ///< the first eight
 inline constexpr int kDirectionCount = 10;  ///< with None and Rest
@@ -56,7 +68,8 @@ inline constexpr int kDirectionCount = 10;  ///< with None and Rest
 /// "right", "right+down", ... "right+up", "none", "rest".
 std::string_view direction_name(Direction direction) noexcept;
 
-/// The inverse; order does not matter in a pair ("down+right"), opposites cancel. Empty: no such name.
+/// The inverse; order does not matter in a pair ("down+right"), opposites cancel. Empty: no such
+/// name.
 std::optional<Direction> parse_direction(std::string_view name) noexcept;
 
 /// The unit vector of a compass direction; (0, 0) for None and Rest.

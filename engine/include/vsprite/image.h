@@ -4,9 +4,9 @@
 // vsprite/image.h - pictures, and the two ways of counting light.
 //
 // RGBA, 8 bits each, rows top to bottom. "Premultiplied" means the sRGB-encoded value times alpha;
-// "straight" means not multiplied. Alpha is coverage in linear light. PNG files hold straight alpha,
-// the engine draws premultiplied. The sRGB transfer (IEC 61966-2-1) is tabulated in 16-bit integers,
-// made without libm, so that it is the same on every machine.
+// "straight" means not multiplied. Alpha is coverage in linear light. PNG files hold straight
+// alpha, the engine draws premultiplied. The sRGB transfer (IEC 61966-2-1) is tabulated in 16-bit
+// integers, made without libm, so that it is the same on every machine.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,10 @@ struct ImageView {
   ImageView(const std::uint8_t* pixels, int w, int h, std::ptrdiff_t row_stride)
       : rgba(pixels), width(w), height(h), stride(row_stride) {}
   ImageView(const Image& image)  // a view of a whole image is meant to be implicit
-      : rgba(image.rgba.data()), width(image.width), height(image.height), stride(4 * image.width) {}
+      : rgba(image.rgba.data()),
+        width(image.width),
+        height(image.height),
+        stride(4 * image.width) {}
 
   const std::uint8_t* pixel(int x, int y) const noexcept { return rgba + y * stride + 4 * x; }
 };
@@ -53,7 +56,8 @@ void premultiply(Image& image) noexcept;
 void unpremultiply(Image& image) noexcept;
 
 /// Reads a PNG of any kind as straight sRGB RGBA (16-bit samples are scaled, no gamma is applied).
-/// Errors: NotFound, CannotRead, BadFormat, CorruptData, LimitExceeded (over 65,535 a side), OutOfMemory.
+/// Errors: NotFound, CannotRead, BadFormat, CorruptData, LimitExceeded (over 65,535 a side),
+/// OutOfMemory.
 Result<Image> read_png(const std::string& path);
 /// The same from memory; `name` stands in messages.
 Result<Image> decode_png(std::span<const std::uint8_t> bytes, const std::string& name);

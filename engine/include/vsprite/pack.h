@@ -23,7 +23,8 @@ inline constexpr std::uint16_t kPackMinor = 1;
 
 /// Maps and checks the file: header, tables, every index and every count, before memory is taken.
 /// Pictures are checked when first decoded. Cost: O(tables), not O(pictures).
-/// Errors: NotFound, CannotRead, BadFormat, UnsupportedVersion, CorruptData, LimitExceeded, OutOfMemory.
+/// Errors: NotFound, CannotRead, BadFormat, UnsupportedVersion, CorruptData, LimitExceeded,
+/// OutOfMemory.
 Result<Sprite> load_pack(const std::string& path);
 
 /// Hands out the straight-alpha picture of a kept sample; called once each, in ascending order.
@@ -36,10 +37,10 @@ Result<void> save_pack(const std::string& path, const SpriteData& data, const Fr
 
 /// One finding of verify_pack.
 struct PackIssue {
-  std::string code;         ///< stable name: "bad-magic", "section-sum", "frame-sum", ...
-  std::string severity;     ///< "error" or "warning"
-  std::string section;      ///< four letters, or empty for the header
-  std::uint64_t offset = 0; ///< bytes from the start of the file
+  std::string code;          ///< stable name: "bad-magic", "section-sum", "frame-sum", ...
+  std::string severity;      ///< "error" or "warning"
+  std::string section;       ///< four letters, or empty for the header
+  std::uint64_t offset = 0;  ///< bytes from the start of the file
   std::string message;
 };
 

@@ -25,13 +25,15 @@ inline Policy make_policy(const Sprite& sprite, int mode) noexcept {
 }
 
 /// The table for a direction with `stage` free steps left.
-inline std::uint32_t table_index(const Policy& policy, Direction direction, std::uint32_t stage) noexcept {
+inline std::uint32_t table_index(const Policy& policy, Direction direction,
+                                 std::uint32_t stage) noexcept {
   return static_cast<std::uint32_t>(direction) * policy.stages + stage;
 }
 
 /// argmin_j of T_ij + w1 |angle(v_j, l)| + a V_j (NIPS section 4), by table. O(1).
 /// Pre: `sample` was kept.
-inline std::uint32_t next_sample(const Policy& policy, std::uint32_t table, std::uint32_t sample) noexcept {
+inline std::uint32_t next_sample(const Policy& policy, std::uint32_t table,
+                                 std::uint32_t sample) noexcept {
   return policy.next[static_cast<std::size_t>(table) * policy.sample_count + sample];
 }
 

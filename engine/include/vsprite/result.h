@@ -4,7 +4,8 @@
 // vsprite/result.h - what a function returns that may meet bad data, files or devices.
 //
 // `Result<T>` holds a value or an `Error`; its member names are those of std::expected. Nothing in
-// the engine throws across its boundary. A caller's broken precondition is an assert, never an Error.
+// the engine throws across its boundary. A caller's broken precondition is an assert, never an
+// Error.
 #pragma once
 
 #include <cassert>
@@ -31,8 +32,8 @@ enum class ErrorCode {
   DecoderFailed,       ///< the decoder child died or hung
   Unavailable,         ///< a device, driver or program is missing on this machine
   OutOfMemory,
-  Interrupted,         ///< stopped by the user; finished work is kept
-  Internal,            ///< a defect of ours
+  Interrupted,  ///< stopped by the user; finished work is kept
+  Internal,     ///< a defect of ours
 };
 
 /// One sentence for a person: names the file and the field, what was found and what was due.

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// vsprite/sprite.h - the immutable asset: filmed samples, which may follow which, and where to go next.
+// vsprite/sprite.h - the immutable asset: filmed samples, which may follow which, and where to go
+// next.
 //
 // A video sprite (Schoedl & Essa, NIPS 2000) is a set of samples i = 0..N-1, grouped in clips: a
 // trimmed picture, an anchor and a velocity each. A transition i -> j costs T_ij >= 0 (0 for the
@@ -33,20 +34,20 @@ inline constexpr std::uint32_t kNoSample = 0xFFFFFFFFu;
 
 /// One filmed frame of the subject. Lengths in pixels of the sample image ("sprite pixels").
 struct Sample {
-  Vec2 anchor;                       ///< px from the image's top left; drawn at the actor's position
-  Vec2 velocity;                     ///< px/s, smoothed inside the clip
-  std::int32_t step_x = 0;           ///< displacement per tick, 1/65536 px: velocity / fps, rounded
-  std::int32_t step_y = 0;           ///< the same, downwards
-  float area = 0;                    ///< sum of alpha / 255, px^2
-  float scale = 1;                   ///< sprite pixels per film pixel
-  std::uint16_t width = 0;           ///< of the image; 0 if the sample was not kept
-  std::uint16_t height = 0;          ///< of the image; 0 if the sample was not kept
-  std::uint16_t duration = 1;        ///< ticks that the sample is shown, >= 1
-  std::uint16_t tag = 0;             ///< index into Sprite::tags()
-  std::uint32_t clip = 0;            ///< samples of one clip are neighbours in time
-  std::uint32_t frame = 0;           ///< frame of the film, from 0
+  Vec2 anchor;                 ///< px from the image's top left; drawn at the actor's position
+  Vec2 velocity;               ///< px/s, smoothed inside the clip
+  std::int32_t step_x = 0;     ///< displacement per tick, 1/65536 px: velocity / fps, rounded
+  std::int32_t step_y = 0;     ///< the same, downwards
+  float area = 0;              ///< sum of alpha / 255, px^2
+  float scale = 1;             ///< sprite pixels per film pixel
+  std::uint16_t width = 0;     ///< of the image; 0 if the sample was not kept
+  std::uint16_t height = 0;    ///< of the image; 0 if the sample was not kept
+  std::uint16_t duration = 1;  ///< ticks that the sample is shown, >= 1
+  std::uint16_t tag = 0;       ///< index into Sprite::tags()
+  std::uint32_t clip = 0;      ///< samples of one clip are neighbours in time
+  std::uint32_t frame = 0;     ///< frame of the film, from 0
   std::uint32_t mirror_of = kNoSample;  ///< the sample of which this is the mirror image
-  std::uint32_t kept = 0;            ///< 1 if transitions lead in and out, else 0
+  std::uint32_t kept = 0;               ///< 1 if transitions lead in and out, else 0
 };
 
 /// A jump or a natural continuation out of some sample.
@@ -59,33 +60,37 @@ struct Transition {
 /// Table index = direction * stages + stage; stage 0 is constrained, stage k has k free steps left.
 struct ControlMode {
   std::string name;
-  float alpha = 0;         ///< discount a, 0 <= a < 1
-  float w1 = 0;            ///< price of a radian off the command, >= 0
-  float cap = 0;           ///< transitions dearer than this were left out
+  float alpha = 0;           ///< discount a, 0 <= a < 1
+  float w1 = 0;              ///< price of a radian off the command, >= 0
+  float cap = 0;             ///< transitions dearer than this were left out
   std::uint32_t stages = 1;  ///< K + 1
-  std::array<Direction, kDirectionCount> table_of{};  ///< the command actually followed for each command:
-                                                      ///< itself where served, else a near one, else Rest
-  std::uint32_t served = 0;          ///< bit d: direction d can be travelled
-  double residual = 0;               ///< largest |TV - V| over all tables
-  double error_bound = 0;            ///< residual / (1 - a)
-  std::vector<std::uint32_t> next;   ///< (10 * stages, N), kNoSample where the sample was not kept
+  std::array<Direction, kDirectionCount>
+      table_of{};                   ///< the command actually followed for each command:
+                                    ///< itself where served, else a near one, else Rest
+  std::uint32_t served = 0;         ///< bit d: direction d can be travelled
+  double residual = 0;              ///< largest |TV - V| over all tables
+  double error_bound = 0;           ///< residual / (1 - a)
+  std::vector<std::uint32_t> next;  ///< (10 * stages, N), kNoSample where the sample was not kept
 };
 
 /// Everything that a pack is made of but the pictures. Plain data.
 struct SpriteData {
   std::string name;
-  std::uint32_t fps_numerator = 30;    ///< ticks per second = numerator / denominator
+  std::uint32_t fps_numerator = 30;  ///< ticks per second = numerator / denominator
   std::uint32_t fps_denominator = 1;
-  float body_length = 0;               ///< median longer side of the alpha >= 128 box, px
+  float body_length = 0;  ///< median longer side of the alpha >= 128 box, px
   std::vector<std::string> tags{""};
-  std::vector<Sample> samples;             ///< (N)
-  std::vector<std::uint32_t> row_start;    ///< (N + 1), ascending: transitions of i are [row_start[i], row_start[i+1])
-  std::vector<Transition> transitions;     ///< each row ascending by `to`
-  std::vector<ControlMode> modes;          ///< at least one; the first is the default
-  std::uint32_t start_sample = 0;          ///< where every run starts: the first kept sample
+  std::vector<Sample> samples;  ///< (N)
+  std::vector<std::uint32_t>
+      row_start;  ///< (N + 1), ascending: transitions of i are [row_start[i], row_start[i+1])
+  std::vector<Transition> transitions;  ///< each row ascending by `to`
+  std::vector<ControlMode> modes;       ///< at least one; the first is the default
+  std::uint32_t start_sample = 0;       ///< where every run starts: the first kept sample
 };
 
-/// A loaded pack: the data above, and the pictures, decoded on demand from the mapped file.
+/// A loaded pack: the data above, and the pictures, decoded on demand from the file, which
+/// stays open: replacing it by another does not disturb a loaded sprite, and cutting it short costs
+/// pictures, not the process.
 /// Movable, not copyable. All const members may be called from any number of threads.
 class Sprite {
  public:
@@ -97,13 +102,17 @@ class Sprite {
   std::span<const Sample> samples() const noexcept { return data().samples; }
   std::span<const Transition> transitions(std::uint32_t sample) const noexcept;
   double fps() const noexcept;
+  /// True if `to` is the film's own continuation of `from`: the next sample of the same clip.
+  bool is_natural(std::uint32_t from, std::uint32_t to) const noexcept;
   /// T of the jump from -> to; 0 for the natural successor, infinity if there is none.
   float transition_cost(std::uint32_t from, std::uint32_t to) const noexcept;
   /// Index into data().modes, or -1.
   int find_mode(std::string_view name) const noexcept;
 
   /// Decodes the premultiplied picture of a sample into `out` (its memory is reused).
-  /// Errors: CorruptData (the frame's own sum does not fit), OutOfMemory. Pre: sample < N.
+  /// Empty (0 x 0) for a sample that was not kept and in a sprite from make_sprite.
+  /// Errors: CorruptData (the frame's own sum does not fit), CannotRead, OutOfMemory. Pre: sample <
+  /// N.
   Result<void> decode_frame(std::uint32_t sample, Image& out) const;
 
   struct Impl;
@@ -112,6 +121,10 @@ class Sprite {
  private:
   std::unique_ptr<Impl> impl_;
 };
+
+/// A velocity in px/s as displacement per tick in 1/65536 px, rounded to nearest: `Sample::step_x`.
+std::int32_t step_per_tick(float velocity, std::uint32_t fps_numerator,
+                           std::uint32_t fps_denominator) noexcept;
 
 /// A sprite from data alone, checked as load_pack checks a file; its pictures are empty. For tools
 /// that steer before a pack is written. Errors: CorruptData, OutOfMemory.

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// pack_format.h - the bytes of a pack (engine/PACK.md), and what reading, writing and verifying
+// share.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "file.h"
+#include "vsprite/pack.h"
+
+namespace vsprite::detail {
+
+inline constexpr std::array<std::uint8_t, 8> kMagic{0x89, 'V', 'S', 'P', '\r', '\n', 0x1A, '\n'};
+inline constexpr std::size_t kHeaderBytes = 64;
+inline constexpr std::size_t kEntryBytes = 32;
+inline constexpr std::size_t kAlignment = 64;
+inline constexpr std::size_t kMetaBytes = 32;  ///< before the texts
+inline constexpr std::size_t kSampleBytes = 56;
+inline constexpr std::size_t kFrameBytes = 24;
+inline constexpr std::size_t kModeBytes = 64;  ///< before the name
+
+inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{8} << 30;
+inline constexpr std::uint32_t kMaxSections = 64;
+inline constexpr std::uint32_t kMaxSamples = 1'000'000;
+inline constexpr std::uint32_t kMaxTransitions = 1u << 30;
+inline constexpr std::uint32_t kMaxTags = 4096;
+inline constexpr std::uint32_t kMaxText = 255;
+inline constexpr std::uint32_t kMaxModes = 16;
+inline constexpr std::uint32_t kMaxStages = 25;  ///< a table index fits in a byte
+inline constexpr std::uint32_t kMaxPixels = 1u << 24;
+
+/// A PackIssue together with the code under which load_pack reports it.
+struct Finding {
+  ErrorCode error = ErrorCode::CorruptData;
+  PackIssue issue;
+};
+using Check = std::optional<Finding>;  ///< empty: nothing found
+
+Finding finding(std::string_view code, std::string_view section, std::uint64_t offset,
+                std::string message, ErrorCode error = ErrorCode::CorruptData);
+
+/// Meaning, not bytes: every index, order and range that playing relies on. The section and the
+/// offset of the finding name the section of a pack; offset is 0.
+Check check_sprite_data(const SpriteData& data);
+/// What a pack asks for beyond that: a picture for every kept sample.
+Check check_picture_sizes(const SpriteData& data);
+
+/// One line of the section table.
+struct SectionEntry {
+  std::string name;
+  std::uint64_t offset = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t sum = 0;
+};
+
+/// One line of FIDX.
+struct FrameEntry {
+  std::uint64_t offset = 0;  ///< inside FRAM
+  std::uint32_t bytes = 0;   ///< compressed; 0 where the sample was not kept
+  std::uint64_t sum = 0;     ///< XXH3-64 of the compressed bytes
+};
+
+/// Everything of a pack but its pictures.
+struct PackContent {
+  std::uint16_t major = 0, minor = 0;
+  std::vector<SectionEntry> sections;
+  SpriteData data;
+  std::vector<FrameEntry> frames;
+  std::uint64_t fram_offset = 0;
+};
+
+/// Reads and checks header, tables and indices: what load_pack relies on.
+Check read_header(const ByteSource& source, PackContent& content);
+Check read_content(const ByteSource& source, PackContent& content);
+/// The same from any source, and as verify_pack does.
+Result<Sprite> load_pack_from(ByteSource source);
+Result<std::vector<PackIssue>> verify_pack_from(ByteSource source);
+
+/// zstd over rows from which the row above was subtracted; see PACK.md, "FRAM".
+class FrameCodec {
+ public:
+  FrameCodec();
+  ~FrameCodec();
+  FrameCodec(const FrameCodec&) = delete;
+  FrameCodec& operator=(const FrameCodec&) = delete;
+  /// `image` premultiplied. Errors: OutOfMemory. The result is valid until the next call.
+  Result<std::span<const std::uint8_t>> encode(const Image& image);
+  /// Fills `image` of the given size. False: not the compressed form of such a picture.
+  /// May throw std::bad_alloc.
+  bool decode(std::span<const std::uint8_t> bytes, int width, int height, Image& image);
+
+  std::vector<std::uint8_t> buffer;  ///< scratch: compressed bytes
+
+ private:
+  void* compressor_ = nullptr;
+  void* decompressor_ = nullptr;
+  std::vector<std::uint8_t> delta_;
+};
+
+std::uint64_t hash_bytes(std::span<const std::uint8_t> bytes) noexcept;
+
+/// Appends numbers, little-endian.
+class Bytes {
+ public:
+  template <class T>
+  void put(T value) {
+    static_assert(sizeof(T) <= 8);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) bits >>= 8 * (8 - sizeof(T));
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      data.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
+    }
+  }
+  void text(std::string_view value) { data.insert(data.end(), value.begin(), value.end()); }
+  void pad_to(std::size_t multiple) {
+    while (data.size() % multiple != 0) data.push_back(0);
+  }
+  std::vector<std::uint8_t> data;
+};
+
+/// Takes numbers off the front, little-endian. Pre: enough bytes are left.
+class Cursor {
+ public:
+  explicit Cursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+  template <class T>
+  T get() noexcept {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i) bits |= std::uint64_t{bytes_[i]} << (8 * i);
+    if constexpr (std::endian::native == std::endian::big) bits <<= 8 * (8 - sizeof(T));
+    T value;
+    std::memcpy(&value, &bits, sizeof(T));
+    bytes_ = bytes_.subspan(sizeof(T));
+    return value;
+  }
+  std::span<const std::uint8_t> take(std::size_t count) noexcept {
+    const auto front = bytes_.first(count);
+    bytes_ = bytes_.subspan(count);
+    return front;
+  }
+  std::size_t left() const noexcept { return bytes_.size(); }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+}  // namespace vsprite::detail
+
+namespace vsprite {
+
+struct Sprite::Impl {
+  SpriteData data;
+  detail::ByteSource source;               ///< where the pictures lie
+  std::vector<detail::FrameEntry> frames;  ///< empty: a sprite from data alone
+  std::uint64_t fram_offset = 0;
+  std::mutex mutex;        ///< guards the two below
+  std::size_t codecs = 0;  ///< made so far
+  std::vector<std::unique_ptr<detail::FrameCodec>> idle;
+};
+
+}  // namespace vsprite

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// tiny_sprite.h - a sprite small enough to reason about: an arrow that swims in eight headings.
+//
+// Sample 0 was not kept. Then one clip of 12 samples for each heading (clockwise from right, 60
+// px/s at 30 ticks a second), then a clip of 6 that stands still (tag "idle"). A heading may change
+// to a neighbouring one at every sample (cost 0.3), its clip closes (0.1), and from every phase 0
+// one may come to rest and leave again (0.5). The third sample of each heading is shown for two
+// ticks. Modes: "paper" (K = 5) and "responsive" (no free steps), solved by plain value iteration.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <vector>
+
+#include "vsprite/image.h"
+#include "vsprite/sprite.h"
+
+namespace vsprite::testing {
+
+inline constexpr std::uint32_t kTinyClip = 12;  ///< samples of one heading
+inline constexpr std::uint32_t kTinyIdle = 6;   ///< samples that stand still
+inline constexpr std::uint32_t kTinyFirstIdle = 1 + 8 * kTinyClip;
+inline constexpr std::uint32_t kTinySamples = kTinyFirstIdle + kTinyIdle;
+inline constexpr float kTinySpeed = 60;  ///< px/s
+
+/// The sample of a heading (0 right, clockwise) at a phase 0..11.
+inline std::uint32_t tiny_sample(int heading, std::uint32_t phase) {
+  return 1 + static_cast<std::uint32_t>(heading) * kTinyClip + phase;
+}
+/// 0..7, or -1 for a sample that stands still or was not kept.
+inline int tiny_heading(std::uint32_t sample) {
+  if (sample == 0 || sample >= kTinyFirstIdle) return -1;
+  return static_cast<int>((sample - 1) / kTinyClip);
+}
+
+namespace tiny {
+
+inline void add_samples(SpriteData& data) {
+  data.samples.resize(kTinySamples);
+  for (std::uint32_t i = 1; i < kTinySamples; ++i) {
+    Sample& s = data.samples[i];
+    const int heading = tiny_heading(i);
+    const Vec2 unit = unit_vector(heading < 0 ? Direction::Rest : static_cast<Direction>(heading));
+    s.width = static_cast<std::uint16_t>(22 + i % 3);
+    s.height = static_cast<std::uint16_t>(20 + i % 2);
+    s.anchor = {static_cast<float>(s.width) / 2, static_cast<float>(s.height) / 2};
+    s.velocity = {unit.x * kTinySpeed, unit.y * kTinySpeed};
+    s.step_x = step_per_tick(s.velocity.x, data.fps_numerator, data.fps_denominator);
+    s.step_y = step_per_tick(s.velocity.y, data.fps_numerator, data.fps_denominator);
+    s.area = 150;
+    s.duration = static_cast<std::uint16_t>(heading >= 0 && (i - 1) % kTinyClip == 2 ? 2 : 1);
+    s.tag = static_cast<std::uint16_t>(heading < 0 ? 1 : 0);
+    s.clip = heading < 0 ? 9 : static_cast<std::uint32_t>(heading) + 1;
+    s.frame = i;
+    s.kept = 1;
+  }
+}
+
+inline void add_transitions(SpriteData& data) {
+  data.row_start.assign(1, 0);
+  for (std::uint32_t i = 0; i < kTinySamples; ++i) {
+    std::vector<Transition> row;
+    const int heading = tiny_heading(i);
+    const std::uint32_t phase = heading < 0 ? i - kTinyFirstIdle : (i - 1) % kTinyClip;
+    if (i >= kTinyFirstIdle) {
+      const bool last = phase + 1 == kTinyIdle;
+      row.push_back({last ? kTinyFirstIdle : i + 1, last ? 0.1f : 0.0f});
+      if (phase == 0) {
+        for (int h = 0; h < 8; ++h) row.push_back({tiny_sample(h, 0), 0.5f});
+      }
+    } else if (heading >= 0) {
+      const std::uint32_t after = (phase + 1) % kTinyClip;
+      row.push_back({tiny_sample(heading, after), after == 0 ? 0.1f : 0.0f});
+      row.push_back({tiny_sample((heading + 1) % 8, after), 0.3f});
+      row.push_back({tiny_sample((heading + 7) % 8, after), 0.3f});
+      if (phase == 0) row.push_back({kTinyFirstIdle, 0.5f});
+    }
+    std::sort(row.begin(), row.end(), [](auto& a, auto& b) { return a.to < b.to; });
+    data.transitions.insert(data.transitions.end(), row.begin(), row.end());
+    data.row_start.push_back(static_cast<std::uint32_t>(data.transitions.size()));
+  }
+}
+
+/// |angle(v_j, l)| in radians; pi for a sample that stands still, and the reverse for Rest.
+inline double angle_term(int direction, std::uint32_t sample) {
+  constexpr double kPi = 3.14159265358979;
+  const int heading = tiny_heading(sample);
+  if (direction == static_cast<int>(Direction::None)) return 0;
+  if (direction == static_cast<int>(Direction::Rest)) return heading < 0 ? 0 : kPi;
+  if (heading < 0) return kPi;
+  const int apart = std::abs(heading - direction);
+  return std::min(apart, 8 - apart) * kPi / 4;
+}
+
+/// One sweep of V_i = min_j [T_ij + w1 |angle(v_j, l)| + a before_j]; writes the minimisers to
+/// `next`.
+inline std::vector<double> sweep(const SpriteData& data, const ControlMode& mode, int direction,
+                                 bool constrained, const std::vector<double>& before,
+                                 std::uint32_t* next) {
+  std::vector<double> values(kTinySamples, 0);
+  for (std::uint32_t i = 0; i < kTinySamples; ++i) {
+    double best = std::numeric_limits<double>::infinity();
+    next[i] = kNoSample;
+    for (std::uint32_t k = data.row_start[i]; k < data.row_start[i + 1]; ++k) {
+      const Transition& t = data.transitions[k];
+      const double angle = constrained ? mode.w1 * angle_term(direction, t.to) : 0;
+      const double value = t.cost + angle + mode.alpha * before[t.to];
+      if (value < best) {
+        best = value;
+        next[i] = t.to;
+      }
+    }
+    if (next[i] != kNoSample) values[i] = best;
+  }
+  return values;
+}
+
+inline ControlMode make_mode(const SpriteData& data, const char* name, std::uint32_t stages) {
+  ControlMode mode;
+  mode.name = name;
+  mode.alpha = 0.9f;
+  mode.w1 = 0.5f;
+  mode.cap = 1;
+  mode.stages = stages;
+  mode.served = 0xFF;
+  mode.residual = 1e-9;
+  mode.error_bound = 1e-8;
+  mode.next.resize(std::size_t{kDirectionCount} * stages * kTinySamples);
+  for (int d = 0; d < kDirectionCount; ++d) {
+    mode.table_of[static_cast<std::size_t>(d)] = static_cast<Direction>(d);
+    std::uint32_t* table = mode.next.data() + static_cast<std::size_t>(d) * stages * kTinySamples;
+    std::vector<double> values(kTinySamples, 0);
+    for (int round = 0; round < 250; ++round) values = sweep(data, mode, d, true, values, table);
+    for (std::uint32_t k = 1; k < stages; ++k) {
+      values = sweep(data, mode, d, false, values, table + k * kTinySamples);
+    }
+  }
+  return mode;
+}
+
+}  // namespace tiny
+
+inline SpriteData tiny_sprite_data() {
+  SpriteData data;
+  data.name = "tiny";
+  data.body_length = 20;
+  data.tags = {"swim", "idle"};
+  data.start_sample = 1;
+  tiny::add_samples(data);
+  tiny::add_transitions(data);
+  data.modes.push_back(tiny::make_mode(data, "paper", 6));
+  data.modes.push_back(tiny::make_mode(data, "responsive", 1));
+  return data;
+}
+
+/// The straight-alpha picture of a sample: an arrow head along the heading (a disc at rest), one
+/// hue a heading, with a soft edge. Only the unit vectors and sqrt go into it.
+inline Image tiny_picture(const SpriteData& data, std::uint32_t sample) {
+  constexpr std::uint8_t kHues[9][3] = {{230, 60, 50},  {230, 150, 40}, {220, 220, 50},
+                                        {90, 200, 60},  {50, 190, 170}, {60, 120, 230},
+                                        {120, 70, 220}, {220, 70, 180}, {190, 190, 190}};
+  const Sample& s = data.samples[sample];
+  const int heading = tiny_heading(sample);
+  const Vec2 u = unit_vector(heading < 0 ? Direction::Rest : static_cast<Direction>(heading));
+  Image image{s.width, s.height, std::vector<std::uint8_t>(std::size_t{4} * s.width * s.height)};
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const float dx = static_cast<float>(x) + 0.5f - s.anchor.x;
+      const float dy = static_cast<float>(y) + 0.5f - s.anchor.y;
+      const float along = dx * u.x + dy * u.y;
+      const float across = std::fabs(dx * u.y - dy * u.x);
+      const float inside = heading < 0 ? 8.0f - std::sqrt(dx * dx + dy * dy)
+                                       : std::min(8.0f - along - 2 * across, along + 8.0f);
+      std::uint8_t* p = image.rgba.data() + 4 * (y * image.width + x);
+      const auto* hue = kHues[heading < 0 ? 8 : heading];
+      p[0] = hue[0];
+      p[1] = hue[1];
+      p[2] = static_cast<std::uint8_t>(hue[2] - static_cast<int>(sample % kTinyClip));
+      p[3] = static_cast<std::uint8_t>(std::clamp(inside * 0.5f + 0.5f, 0.0f, 1.0f) * 255 + 0.5f);
+    }
+  }
+  return image;
+}
+
+/// Without pictures.
+inline Sprite tiny_sprite() { return *make_sprite(tiny_sprite_data()); }
+
+}  // namespace vsprite::testing
