@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// The paper's linear classifier, with two departures: squared hinge loss (smooth enough for Newton),
-// and weights that may not be negative.
+// The paper's linear classifier, with two departures: squared hinge loss (smooth enough for
+// Newton), and weights that may not be negative.
 #include "similarity/classifier.h"
 
 #include <algorithm>
@@ -149,7 +149,8 @@ std::vector<int> make_folds(const FeatureSet& set, int folds) {
   const std::size_t n = set.rows.size(), parts = static_cast<std::size_t>(folds);
   std::vector<Clip> clips;
   for (std::size_t i = 0; i < n; ++i) {
-    if (clips.empty() || clips.back().clip != set.rows[i].clip) clips.push_back({set.rows[i].clip, i, 0});
+    if (clips.empty() || clips.back().clip != set.rows[i].clip)
+      clips.push_back({set.rows[i].clip, i, 0});
     ++clips.back().size;
   }
   std::stable_sort(clips.begin(), clips.end(),
@@ -223,15 +224,16 @@ std::array<double, kFeatureCount> measure_spread(const std::vector<FeatureVector
   return sd;
 }
 
-Result<void> check(const FeatureSet& set, std::span<const Label> labels, const TrainConfig& config) {
+Result<void> check(const FeatureSet& set, std::span<const Label> labels,
+                   const TrainConfig& config) {
   if (!(config.false_accept_cost > 0) || !(config.ridge > 0) || !(config.floor >= 0) ||
       !(config.floor <= 0.1) || config.folds < 2) {
     return Error{ErrorCode::BadSetting,
                  "train: false_accept_cost and ridge must be above 0, floor in 0..0.1, folds at "
                  "least 2; correct the setting"};
   }
-  const auto acceptable = std::count_if(labels.begin(), labels.end(),
-                                        [](const Label& l) { return l.acceptable; });
+  const auto acceptable =
+      std::count_if(labels.begin(), labels.end(), [](const Label& l) { return l.acceptable; });
   const bool none_good = acceptable == 0;
   if (none_good || acceptable == std::ssize(labels)) {
     return Error{ErrorCode::BadContent,
@@ -263,8 +265,11 @@ Result<Training> train(const FeatureSet& set, std::span<const Label> labels,
   std::vector<Example> examples;
   for (std::size_t n = 0; n < labels.size(); ++n) {
     const double y = labels[n].acceptable ? 1 : -1;
-    Example e{{}, labels[n].acceptable ? 1 : config.false_accept_cost, labels[n].acceptable,
-              labels[n].i, labels[n].j};
+    Example e{{},
+              labels[n].acceptable ? 1 : config.false_accept_cost,
+              labels[n].acceptable,
+              labels[n].i,
+              labels[n].j};
     for (std::size_t k = 0; k < kFeatureCount; ++k) {
       if (result.spread[k] > 0) e.a[k] = -y * static_cast<double>(vectors[n][k]) / result.spread[k];
     }

@@ -14,8 +14,9 @@
 namespace vsprite {
 namespace {
 
-constexpr int kTileRows = 32;      // samples i of a tile
-constexpr int kTileColumns = 256;  // samples j looked at together, so that their blocks stay in cache
+constexpr int kTileRows = 32;  // samples i of a tile
+constexpr int kTileColumns =
+    256;  // samples j looked at together, so that their blocks stay in cache
 
 std::uint32_t block_difference(const std::vector<std::uint16_t>& a,
                                const std::vector<std::uint16_t>& b) noexcept {
@@ -41,8 +42,7 @@ class PairTest {
     f[kAlpha] = detail::alpha_feature(block_difference(a.block_alpha, b.block_alpha));
     if (refused(f)) return false;
     ++compared;
-    const std::uint32_t alpha =
-        detail::alpha_difference(a.planes.data(), b.planes.data(), plane_);
+    const std::uint32_t alpha = detail::alpha_difference(a.planes.data(), b.planes.data(), plane_);
     f[kAlpha] = detail::alpha_feature(alpha);
     if (refused(f)) return false;
     std::uint64_t color = 0;
@@ -110,10 +110,11 @@ std::vector<PairDistance> accepted_pairs(const FeatureSet& set, const Classifier
       if (!progress) return;
       const std::scoped_lock lock(progress_mutex);
       done += static_cast<std::uint64_t>(count - first);
-      const auto total = static_cast<std::uint64_t>(tile_count) *
-                         (2 * static_cast<std::uint64_t>(count) -
-                          static_cast<std::uint64_t>(kTileRows) *
-                              static_cast<std::uint64_t>(tile_count - 1)) / 2;
+      const auto total =
+          static_cast<std::uint64_t>(tile_count) *
+          (2 * static_cast<std::uint64_t>(count) -
+           static_cast<std::uint64_t>(kTileRows) * static_cast<std::uint64_t>(tile_count - 1)) /
+          2;
       progress(static_cast<double>(done) / static_cast<double>(total));
     });
   });

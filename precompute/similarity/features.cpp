@@ -58,8 +58,8 @@ void measure_speeds(FeatureSet& set) {
 double cell_size(const std::vector<SampleRow>& rows, int grid) {
   double reach = 1;
   for (const SampleRow& r : rows) {
-    reach = std::max({reach, r.anchor_x - r.left, r.left + r.width - r.anchor_x,
-                      r.anchor_y - r.top, r.top + r.height - r.anchor_y});
+    reach = std::max({reach, r.anchor_x - r.left, r.left + r.width - r.anchor_x, r.anchor_y - r.top,
+                      r.top + r.height - r.anchor_y});
   }
   return 2 * reach / grid;
 }
@@ -193,8 +193,7 @@ FeatureSet make_feature_set(std::vector<SampleRow> rows, double fps, int grid,
   set.rows = std::move(rows);
   set.samples.reserve(set.rows.size());
   for (std::size_t i = 0; i < set.rows.size(); ++i) {
-    set.samples.push_back(
-        make_sample(set.rows[i], pictures(static_cast<int>(i)), set.cell, grid));
+    set.samples.push_back(make_sample(set.rows[i], pictures(static_cast<int>(i)), set.cell, grid));
   }
   measure_speeds(set);
   return set;
@@ -202,7 +201,8 @@ FeatureSet make_feature_set(std::vector<SampleRow> rows, double fps, int grid,
 
 bool follows(const FeatureSet& set, int i, int next) noexcept {
   return next == i + 1 && i >= 0 && static_cast<std::size_t>(next) < set.rows.size() &&
-         set.rows[static_cast<std::size_t>(i)].clip == set.rows[static_cast<std::size_t>(next)].clip;
+         set.rows[static_cast<std::size_t>(i)].clip ==
+             set.rows[static_cast<std::size_t>(next)].clip;
 }
 
 FeatureVector cheap_features(const FeatureSet& set, int i, int j) noexcept {
@@ -212,14 +212,13 @@ FeatureVector cheap_features(const FeatureSet& set, int i, int j) noexcept {
   const double fade = std::min(1.0, slower / set.v0);
   double color = 0;
   for (int k = 0; k < 3; ++k) {
-    const double d =
-        static_cast<double>(a.mean_color[k]) - static_cast<double>(b.mean_color[k]);
+    const double d = static_cast<double>(a.mean_color[k]) - static_cast<double>(b.mean_color[k]);
     color += d * d;
   }
   FeatureVector f{};
   f[kSpeed] = std::fabs(a.speed - b.speed);
-  f[kAngle] = static_cast<float>(fade * heading_difference(static_cast<double>(a.heading),
-                                                           static_cast<double>(b.heading)));
+  f[kAngle] = static_cast<float>(
+      fade * heading_difference(static_cast<double>(a.heading), static_cast<double>(b.heading)));
   f[kMeanColor] = static_cast<float>(std::sqrt(color));
   f[kArea] = std::fabs(a.area - b.area);
   return f;

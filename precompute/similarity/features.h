@@ -36,8 +36,9 @@ enum Feature { kSpeed, kAngle, kColor, kAlpha, kMeanColor, kArea };
 using FeatureVector = std::array<float, kFeatureCount>;
 
 inline constexpr double kPi = 3.14159265358979323846;
-inline constexpr int kDefaultGrid = 48;  ///< cells a side; finer finds no other jumps and costs time
-inline constexpr int kBlock = 8;         ///< cells a side of a block of the coarse coverage image
+inline constexpr int kDefaultGrid =
+    48;                           ///< cells a side; finer finds no other jumps and costs time
+inline constexpr int kBlock = 8;  ///< cells a side of a block of the coarse coverage image
 
 /// The angle of (x, y), radians in (-pi, pi], clockwise from +x; error below 1e-8; polynomial, no
 /// libm. 0 for (0, 0).
@@ -59,10 +60,10 @@ struct FeatureSample {
 
 /// All samples on one grid; what every later stage of the film sees of the pictures.
 struct FeatureSet {
-  int grid = kDefaultGrid;   ///< cells a side
-  double cell = 1;           ///< film pixels per cell, from the largest sprite
-  double moving_speed = 0;   ///< px/s: a sample faster than this moves
-  double v0 = 1;             ///< px/s, > 0: below this speed the angle fades
+  int grid = kDefaultGrid;  ///< cells a side
+  double cell = 1;          ///< film pixels per cell, from the largest sprite
+  double moving_speed = 0;  ///< px/s: a sample faster than this moves
+  double v0 = 1;            ///< px/s, > 0: below this speed the angle fades
   double fps = 30;
   std::vector<SampleRow> rows;
   std::vector<FeatureSample> samples;  ///< (N), same numbering

@@ -14,8 +14,9 @@
 namespace vsprite {
 namespace {
 
-constexpr int kNear = 15;              // samples; closer than this is neither sure nor needed
-constexpr double kRepeatShare = 0.75;  // a random pair nearer than this share of neighbours: a repeat
+constexpr int kNear = 15;  // samples; closer than this is neither sure nor needed
+constexpr double kRepeatShare =
+    0.75;  // a random pair nearer than this share of neighbours: a repeat
 
 // SplitMix64 (Steele, Lea, Flood 2014).
 struct Random {
@@ -57,8 +58,8 @@ std::vector<Pair> neighbours(const FeatureSet& set, std::size_t count, Random& r
   }
   shuffle(moving, random);
   shuffle(resting, random);
-  const std::size_t rest = std::min(resting.size(), std::max(count / 3, count - std::min(
-                                                        count, moving.size())));
+  const std::size_t rest =
+      std::min(resting.size(), std::max(count / 3, count - std::min(count, moving.size())));
   moving.resize(std::min(moving.size(), count - std::min(count, rest)));
   moving.insert(moving.end(), resting.begin(), resting.begin() + static_cast<std::ptrdiff_t>(rest));
   return moving;
@@ -115,9 +116,9 @@ std::vector<Label> bootstrap_labels(const FeatureSet& set, int count, std::uint6
   for (const Pair& p : near) rough.push_back(p.rough);
   std::sort(rough.begin(), rough.end());
   const double repeat =
-      rough.empty() ? 0
-                    : rough[static_cast<std::size_t>(kRepeatShare *
-                                                     static_cast<double>(rough.size() - 1))];
+      rough.empty()
+          ? 0
+          : rough[static_cast<std::size_t>(kRepeatShare * static_cast<double>(rough.size() - 1))];
   const auto is_repeat = [&](const Pair& p) { return p.rough <= repeat; };
   std::vector<Pair> chosen = far;
   std::erase_if(chosen, is_repeat);

@@ -4,10 +4,10 @@
 // similarity/label.h - which pairs are known to look alike, or not.
 //
 // Without a person the film itself answers: neighbouring frames (one and two samples apart) are
-// acceptable, two thirds of them from moving samples; random pairs are not. A random pair that looks
-// like a neighbour - its rough distance, the sum of the six features each over its mean among random
-// pairs, is no larger than that of most neighbours - is a repeat (one period of a loop apart, a pose
-// held) and no negative.
+// acceptable, two thirds of them from moving samples; random pairs are not. A random pair that
+// looks like a neighbour - its rough distance, the sum of the six features each over its mean among
+// random pairs, is no larger than that of most neighbours - is a repeat (one period of a loop
+// apart, a pose held) and no negative.
 #pragma once
 
 #include <cstdint>
