@@ -275,7 +275,8 @@ void Scene::draw_sparks(Renderer& renderer, float seconds) {
     }
     if (!mine) continue;
     const float size = 20 + 4.0f * static_cast<float>(spark.event.combo);
-    const std::string text = "+" + std::to_string(spark.event.points);
+    std::string text = "+";
+    text += std::to_string(spark.event.points);
     vsprite::TextStyle style{
         size, {1, 0.93f, 0.72f, std::min(1.0f, 2.2f * (1 - age))}, 1.5f, vsprite::Align::Center};
     renderer.draw_text(text, {at.x, at.y - 46 - 34 * age}, style);
