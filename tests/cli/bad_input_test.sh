@@ -27,12 +27,6 @@ film circle circle.mp4 100
 head -c $(($(stat -c %s circle.mp4) / 2)) circle.mp4 >short.mp4
 expect 3 vsprite build short.mp4
 says "short.mp4"; one_sentence
-for size in 160x120 96x64; do
-  ffmpeg -v error -y -i circle.mp4 -vf scale=${size/x/:} -c:v mpeg2video -q:v 3 -f mpeg2video $size.m2v
-done
-cat 160x120.m2v 96x64.m2v >changes.mpg
-expect 3 vsprite build changes.mpg
-says "changes.mpg"; one_sentence
 
 cp "$BIN/vsprite" binary.vsp
 expect 3 vsprite info binary.vsp

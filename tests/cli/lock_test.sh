@@ -18,7 +18,7 @@ expect 0 vsprite build c.mp4 -o c.vsp
 good=$(sum c.vsp)
 
 # No space left, at each kind of call.
-for point in write:1 write:3 fsync:1 rename:1 fsync:2; do
+for point in write:2 write:3 fsync:1 rename:1 fsync:2; do
   rm -f c.work/values.bin
   before=$(sum c.work/transitions.bin)
   expect 74 strace -f -qq -o /dev/null -e inject=${point%:*}:error=ENOSPC:when=${point#*:} "$BIN/vsprite" solve --work c.work --progress none
