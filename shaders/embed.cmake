@@ -3,7 +3,7 @@
 
 # vsprite_embed_shaders(TARGET DIR): every DIR/<name>.vert and .frag becomes a string_view
 # vsprite::shaders::<folder>::<name>_vert / <name>_frag in the generated header "shaders/<folder>.h".
-set(VSPRITE_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_script.cmake)
+set(VSPRITE_EMBED_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/embed_script.cmake CACHE INTERNAL "")
 function(vsprite_embed_shaders target dir)
   get_filename_component(folder ${dir} NAME)
   file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.vert ${dir}/*.frag)

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // A rectangle: area is x, y, width, height in frame pixels.
 uniform vec4 area;
 uniform vec2 frame_size;

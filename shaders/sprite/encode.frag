@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // Linear premultiplied light to sRGB (IEC 61966-2-1). straight: 1 for files (straight alpha), 0 for
 // windows (over black). dither: height of the noise, in steps of 1/255.
 in vec2 place;

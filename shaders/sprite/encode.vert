@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // The whole viewport. flip: 1 where the target's first row is the bottom one (windows), else 0.
 uniform float flip;
 out vec2 place;  // 0..1 of the frame, y down

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // Triangles. place: xy frame pixels     tint: linear light, straight alpha
 layout(location = 0) in vec4 place;
 layout(location = 1) in vec4 tint;

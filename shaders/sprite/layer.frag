@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // Stretches a layer over the area. In and out: linear, premultiplied.
 uniform sampler2D layer;
 uniform vec4 area;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // Coverage of a rounded box from its signed distance, lengths in frame pixels. Out: linear, premultiplied.
 in vec2 local;
 flat in vec2 half_size;

@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // One rounded box per instance.
 // place: centre, half size     form: cos and sin of the angle, corner radius, outline width
 // edge: x feather beyond one pixel     tint: linear light, straight alpha     all lengths frame pixels

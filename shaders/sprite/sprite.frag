@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // Bilinear between texels that are linear premultiplied light; a shrunk picture is averaged over the
 // pixel's footprint by up to 4 x 4 such samples. Out: linear, premultiplied.
 in vec2 texel;

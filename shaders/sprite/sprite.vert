@@ -1,3 +1,6 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
 // One sprite per instance, four corners of a strip.
 // place: xy frame pixels of the picture's top left corner     axes: frame pixels per texel, along x and y
 // rect: x, y, width, height of the picture in the page, texels     tint, fog: linear light

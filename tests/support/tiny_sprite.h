@@ -52,8 +52,8 @@ inline void add_samples(SpriteData& data) {
     s.step_x = step_per_tick(s.velocity.x, data.fps_numerator, data.fps_denominator);
     s.step_y = step_per_tick(s.velocity.y, data.fps_numerator, data.fps_denominator);
     s.area = 150;
-    s.duration = heading >= 0 && (i - 1) % kTinyClip == 2 ? 2 : 1;
-    s.tag = heading < 0 ? 1 : 0;
+    s.duration = static_cast<std::uint16_t>(heading >= 0 && (i - 1) % kTinyClip == 2 ? 2 : 1);
+    s.tag = static_cast<std::uint16_t>(heading < 0 ? 1 : 0);
     s.clip = heading < 0 ? 9 : static_cast<std::uint32_t>(heading) + 1;
     s.frame = i;
     s.kept = 1;

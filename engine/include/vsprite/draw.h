@@ -50,7 +50,7 @@ struct Color {
 Color srgb(std::uint32_t rgb, float alpha = 1) noexcept;
 
 /// How what is drawn meets what is there.
-enum class Blend : std::uint8_t {
+enum class BlendMode : std::uint8_t {
   Over,      ///< src + (1 - src.a) dst
   Add,       ///< src + dst: light
   Multiply,  ///< src dst: shade
@@ -59,9 +59,9 @@ enum class Blend : std::uint8_t {
 
 /// Frame pixels of a point p: (p - origin) scale + offset.
 struct Camera {
-  Vec2 origin;  ///< game coordinates
+  Vec2 origin{};  ///< game coordinates
   float scale = 1;
-  Vec2 offset;  ///< frame pixels
+  Vec2 offset{};  ///< frame pixels
 };
 
 /// Names a picture in the texture cache; `sprite` 0 means: not cached, uploaded for this one
@@ -74,28 +74,28 @@ struct TextureKey {
 
 /// One picture to draw. The anchor comes to lie at `position`, exactly, also between pixels.
 struct SpriteDraw {
-  ImageView image;  ///< premultiplied sRGB; may be empty where is_cached(key)
-  TextureKey key;   ///< the same key must always mean the same picture, until forget(sprite)
-  Vec2 position;    ///< game coordinates
-  Vec2 anchor;      ///< px of the image
-  float scale = 1;  ///< game pixels per image pixel, > 0; shrinking is area-averaged down to 1/4
-  float angle = 0;  ///< radians clockwise, about the anchor
+  ImageView image{};  ///< premultiplied sRGB; may be empty where is_cached(key)
+  TextureKey key{};   ///< the same key must always mean the same picture, until forget(sprite)
+  Vec2 position{};    ///< game coordinates
+  Vec2 anchor{};      ///< px of the image
+  float scale = 1;    ///< game pixels per image pixel, > 0; shrinking is area-averaged down to 1/4
+  float angle = 0;    ///< radians clockwise, about the anchor
   bool mirror = false;   ///< left and right exchanged, about the anchor
-  Color tint;            ///< multiplies colour; tint.a multiplies coverage
-  Color fog;             ///< colour of the water or air in between (its alpha is not used) ...
+  Color tint{};          ///< multiplies colour; tint.a multiplies coverage
+  Color fog{};           ///< colour of the water or air in between (its alpha is not used) ...
   float fog_amount = 0;  ///< ... 0 none, 1 a silhouette in that colour
 };
 
 /// A rounded box with a soft edge: also rectangles, discs, rings and thick lines.
 struct Shape {
-  Vec2 center;        ///< game coordinates
-  Vec2 half_size;     ///< game pixels
+  Vec2 center{};      ///< game coordinates
+  Vec2 half_size{};   ///< game pixels
   float radius = 0;   ///< of the corners, at most the smaller half size
   float angle = 0;    ///< radians clockwise
   float outline = 0;  ///< 0: filled; else the width of a line that lies inside the edge
   float feather = 0;  ///< width over which the edge fades, beyond one pixel
-  Color color;
-  Blend blend = Blend::Over;
+  Color color{};
+  BlendMode blend = BlendMode::Over;
 };
 Shape disc(Vec2 center, float radius, Color color) noexcept;
 Shape line(Vec2 from, Vec2 to, float width, Color color) noexcept;
@@ -103,15 +103,15 @@ Shape line(Vec2 from, Vec2 to, float width, Color color) noexcept;
 Shape box(Vec2 from, Vec2 to, Color color, float radius = 0) noexcept;
 
 struct Vertex {
-  Vec2 position;  ///< game coordinates
-  Color color;
+  Vec2 position{};  ///< game coordinates
+  Color color{};
 };
 
 enum class Align : std::uint8_t { Left, Center, Right };
 
 struct TextStyle {
   float size = 16;  ///< height of a line, game pixels
-  Color color;
+  Color color{};
   float weight = 1;  ///< stroke width against the usual 0.085 of the size
   Align align = Align::Left;
 };
@@ -146,8 +146,8 @@ struct Uniform {
 };
 
 struct EffectPass {
-  Rect area;  ///< frame pixels (the camera is not applied); width 0: the whole frame
-  Blend blend = Blend::Over;
+  Rect area{};  ///< frame pixels (the camera is not applied); width 0: the whole frame
+  BlendMode blend = BlendMode::Over;
 };
 
 struct RendererConfig {
@@ -184,7 +184,7 @@ class Renderer {
 
   void draw_shape(const Shape& shape);
   /// Three vertices a triangle, filled, edges not smoothed.
-  void draw_triangles(std::span<const Vertex> vertices, Blend blend = Blend::Over);
+  void draw_triangles(std::span<const Vertex> vertices, BlendMode blend = BlendMode::Over);
   /// A convex polygon with smooth edges, corners in clockwise order (y down).
   void draw_polygon(std::span<const Vec2> corners, Color color);
   /// `position`: left end (or centre, or right end) of the first line's top. ASCII, arrows
