@@ -2,7 +2,12 @@
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
   film/video.cpp
+  film/light.cpp
+  film/grid.cpp
+  film/silhouette.cpp
   film/plate.cpp
+  film/unmix.cpp
   film/matte.cpp
   film/extract.cpp
+  film/contact.cpp
 )

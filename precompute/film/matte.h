@@ -23,27 +23,30 @@ struct MatteConfig {
   float clip_high = 0.97f;  ///< alpha above this is 1
 };
 
-/// A connected part of a matte.
+/// A connected part of a matte. Parts that come within two cells (four pixels) of each other are
+/// one: fin tips and hands that thin places cut off belong to their subject.
 struct Blob {
-  Rect box;                  ///< film pixels
-  double area = 0;           ///< sum of alpha / 255
-  double anchor_x = 0;       ///< alpha-weighted centroid of the opened mask, film pixels, sub-pixel
+  Rect box;             ///< film pixels
+  double area = 0;      ///< sum of alpha / 255
+  double anchor_x = 0;  ///< alpha-weighted centroid of the opened mask, film pixels, sub-pixel
   double anchor_y = 0;
   bool touches_border = false;
-  int label = 0;             ///< value in KeyedFrame::labels
+  int label = 0;  ///< value in KeyedFrame::labels
 };
 
 /// A frame keyed: the crop that holds everything that is not screen.
 struct KeyedFrame {
   int index = 0;
-  Rect crop;                          ///< film pixels; empty if nothing was found
-  Image straight;                     ///< (crop) straight-alpha RGBA, screen's share removed
-  std::vector<std::uint8_t> labels;   ///< (crop) 0 = none, else the blob's label
-  std::vector<Blob> blobs;            ///< largest first, at most 32
-  double difference = 0;              ///< mean |frame - frame before| over the subject's box, code values (duplicates)
+  Rect crop;                         ///< film pixels; empty if nothing was found
+  Image straight;                    ///< (crop) straight-alpha RGBA, screen's share removed
+  std::vector<std::uint8_t> labels;  ///< (crop) 0 = none, else the blob's label
+  std::vector<Blob> blobs;           ///< largest first, at most 32
+  double difference =
+      0;  ///< mean |frame - frame before| over the subject's box, code values (duplicates)
 };
 
-/// Keys one frame. Pure and deterministic; any number of threads, one Keyer each.
+/// Keys one frame. Pure and deterministic; any number of threads, one Keyer each. Making one is
+/// cheap; the model is borrowed and has to outlive it.
 class Keyer {
  public:
   Keyer(const ScreenModel& screen, const MatteConfig& config);

@@ -1,3 +1,543 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
+//
+// Measures the screen from frames spread over the film. A screen of one colour is the mode of the
+// colour histogram, then a robust quadratic over the picture, then a robust mean per pixel of what
+// lies near that surface: the prior survives a subject that rests in one place for most of the
+// film, where a plain temporal median shows the subject. A standing camera has the median instead.
 #include "film/plate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "film/light.h"
+#include "film/silhouette.h"
+
+namespace vsprite {
+namespace {
+
+using detail::Grid;
+using detail::Mask;
+using detail::Surface;
+using detail::SurfaceFit;
+
+// Luma and the two colour differences of encoded blue, green, red: invertible, so a sum as good as
+// any; what matters is that colour is apart from brightness.
+struct Ycc {
+  float y, cb, cr;
+};
+
+Ycc ycc(float b, float g, float r) {
+  const float y = 0.114f * b + 0.587f * g + 0.299f * r;
+  return {y, 0.564f * (b - y), 0.713f * (r - y)};
+}
+
+Ycc cell_ycc(const Grid& grid, std::size_t i) {
+  return ycc(0.25f * grid.plane[0][i], 0.25f * grid.plane[1][i], 0.25f * grid.plane[2][i]);
+}
+
+// 1.4826 x median of |r| over a histogram of quarter code values.
+class Spread {
+ public:
+  void add(double r) {
+    const double bin = std::abs(r) * 4;
+    ++bins_[bin < 1023 ? static_cast<std::size_t>(bin) : 1023];
+    ++count_;
+  }
+  double sigma() const {
+    std::uint64_t seen = 0;
+    for (std::size_t i = 0; i < 1024; ++i) {
+      const std::uint64_t before = seen;
+      seen += bins_[i];
+      if (2 * seen >= count_ && bins_[i] > 0) {
+        const double part = (0.5 * static_cast<double>(count_) - static_cast<double>(before)) /
+                            static_cast<double>(bins_[i]);
+        return 1.4826 * 0.25 * (static_cast<double>(i) + part);
+      }
+    }
+    return 0;
+  }
+
+ private:
+  std::uint64_t bins_[1024] = {};
+  std::uint64_t count_ = 0;
+};
+
+struct ScreenColor {
+  double cb = 0, cr = 0, y = 0;
+};
+
+// The most frequent colour of all samples: mode of the smoothed (Cb, Cr) histogram, median luma.
+ScreenColor most_frequent_color(const std::vector<Grid>& grids) {
+  std::vector<std::uint32_t> bins(64 * 64);
+  const auto bin = [](float c) { return std::clamp(static_cast<int>((c + 128) / 4), 0, 63); };
+  for (const Grid& grid : grids)
+    for (std::size_t i = 0; i < grid.cells(); i += 3) {
+      const Ycc c = cell_ycc(grid, i);
+      ++bins[static_cast<std::size_t>(64 * bin(c.cb) + bin(c.cr))];
+    }
+  int best_cb = 1;
+  int best_cr = 1;
+  std::uint64_t best = 0;
+  for (int i = 1; i < 63; ++i)
+    for (int j = 1; j < 63; ++j) {
+      std::uint64_t sum = 0;
+      for (int a = -1; a <= 1; ++a)
+        for (int b = -1; b <= 1; ++b) sum += bins[static_cast<std::size_t>(64 * (i + a) + j + b)];
+      sum += bins[static_cast<std::size_t>(64 * i + j)];
+      if (sum > best) {
+        best = sum;
+        best_cb = i;
+        best_cr = j;
+      }
+    }
+  ScreenColor color;
+  std::uint64_t luma[256] = {};
+  std::uint64_t count = 0;
+  for (const Grid& grid : grids)
+    for (std::size_t i = 0; i < grid.cells(); i += 3) {
+      const Ycc c = cell_ycc(grid, i);
+      if (std::abs(bin(c.cb) - best_cb) > 1 || std::abs(bin(c.cr) - best_cr) > 1) continue;
+      color.cb += static_cast<double>(c.cb);
+      color.cr += static_cast<double>(c.cr);
+      ++luma[std::clamp(static_cast<int>(c.y + 0.5f), 0, 255)];
+      ++count;
+    }
+  color.cb /= static_cast<double>(std::max<std::uint64_t>(count, 1));
+  color.cr /= static_cast<double>(std::max<std::uint64_t>(count, 1));
+  std::uint64_t seen = 0;
+  while (color.y < 255 && 2 * (seen += luma[static_cast<int>(color.y)]) < count) color.y += 1;
+  return color;
+}
+
+// A quadratic over the picture for Y, Cb, Cr, and how far bare screen lies from it.
+struct ScreenSurface {
+  Surface ycc;
+  double sigma[3] = {};
+  double share = 0;  // of all samples within reach of the surface
+
+  bool near(const Ycc& c, double u, double v) const {
+    const float value[3] = {c.y, c.cb, c.cr};
+    for (int p = 0; p < 3; ++p)
+      if (std::abs(static_cast<double>(value[p]) - ycc.at(p, u, v)) >= 4 * sigma[p] + 2)
+        return false;
+    return true;
+  }
+};
+
+ScreenSurface fit_surface(const std::vector<Grid>& grids, const ScreenColor& color) {
+  ScreenSurface s;
+  s.ycc.coefficient[0][0] = color.y;
+  s.ycc.coefficient[1][0] = color.cb;
+  s.ycc.coefficient[2][0] = color.cr;
+  s.sigma[0] = 14;  // the first reach: 58 in luma, 12 in colour
+  s.sigma[1] = s.sigma[2] = 2.5;
+  for (int round = 0; round < 6; ++round) {
+    SurfaceFit fit;
+    Spread spread[3];
+    std::uint64_t kept = 0;
+    std::uint64_t seen = 0;
+    for (const Grid& grid : grids)
+      for (int y = 1; y < grid.height; y += 3)
+        for (int x = 1; x < grid.width; x += 3) {
+          const Ycc c =
+              cell_ycc(grid, static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
+                                 static_cast<std::size_t>(x));
+          const double u = detail::scaled(x, grid.width);
+          const double v = detail::scaled(y, grid.height);
+          ++seen;
+          if (!s.near(c, u, v)) continue;
+          ++kept;
+          const double value[3] = {c.y, c.cb, c.cr};
+          fit.add(u, v, value);
+          for (int p = 0; p < 3; ++p) spread[p].add(value[p] - s.ycc.at(p, u, v));
+        }
+    s.share = static_cast<double>(kept) / static_cast<double>(std::max<std::uint64_t>(seen, 1));
+    if (kept == 0) return s;
+    // The spread about the surface before; the first round's is about a constant.
+    if (round > 0)
+      for (int p = 0; p < 3; ++p) s.sigma[p] = spread[p].sigma();
+    fit.solve(s.ycc);
+  }
+  return s;
+}
+
+// What a cell looks like when bare: its centre per plane (B, G, R code values) and, per frame,
+// where.
+struct Bare {
+  std::vector<float> centre[3];
+  std::vector<Mask> in;  // one a frame
+  double sigma[3] = {};  // Y, Cb, Cr of single samples about the centre
+  double steady = 0;     // share of samples near their centre
+};
+
+// Median over time of each cell, of the samples that `candidate` admits.
+template <class Candidate>
+void find_centres(const std::vector<Grid>& grids, Bare& bare, Candidate candidate,
+                  std::vector<std::uint8_t>& known) {
+  const std::size_t cells = grids[0].cells();
+  std::vector<std::uint16_t> values[3];
+  known.assign(cells, 1);
+  for (auto& centre : bare.centre) centre.assign(cells, 0);
+  for (std::size_t i = 0; i < cells; ++i) {
+    for (auto& v : values) v.clear();
+    for (const Grid& grid : grids)
+      if (candidate(grid, i))
+        for (int p = 0; p < 3; ++p) values[p].push_back(grid.plane[p][i]);
+    if (values[0].size() * 25 < grids.size() || values[0].empty()) {
+      known[i] = 0;
+      continue;
+    }
+    const auto middle = static_cast<std::ptrdiff_t>(values[0].size() / 2);
+    for (int p = 0; p < 3; ++p) {
+      std::nth_element(values[p].begin(), values[p].begin() + middle, values[p].end());
+      bare.centre[p][i] = 0.25f * values[p][static_cast<std::size_t>(middle)];
+    }
+  }
+}
+
+Ycc from_centre(const Bare& bare, const Grid& grid, std::size_t i) {
+  return ycc(0.25f * grid.plane[0][i] - bare.centre[0][i],
+             0.25f * grid.plane[1][i] - bare.centre[1][i],
+             0.25f * grid.plane[2][i] - bare.centre[2][i]);
+}
+
+// Bare samples lie within 3.5 sigma + 1 of the centre and so do all their neighbours: the erosion
+// keeps motion blur and bleeding colour out of the plate.
+void find_bare(const std::vector<Grid>& grids, Bare& bare) {
+  Spread spread[3];
+  for (const Grid& grid : grids)
+    for (std::size_t i = 0; i < grid.cells(); i += 5) {
+      const Ycc d = from_centre(bare, grid, i);
+      spread[0].add(static_cast<double>(d.y));
+      spread[1].add(static_cast<double>(d.cb));
+      spread[2].add(static_cast<double>(d.cr));
+    }
+  float reach[3];
+  for (int p = 0; p < 3; ++p) {
+    bare.sigma[p] = spread[p].sigma();
+    reach[p] = static_cast<float>(3.5 * bare.sigma[p] + 1);
+  }
+  std::uint64_t near = 0;
+  for (const Grid& grid : grids) {
+    Mask mask(grid.width, grid.height);
+    for (std::size_t i = 0; i < grid.cells(); ++i) {
+      const Ycc d = from_centre(bare, grid, i);
+      mask.in[i] =
+          std::abs(d.y) < reach[0] && std::abs(d.cb) < reach[1] && std::abs(d.cr) < reach[2] ? 1
+                                                                                             : 0;
+      // Steadiness asks for more than noise: a change that a person would see.
+      if (std::abs(d.y) < std::max(reach[0], 12.0f) && std::abs(d.cb) < std::max(reach[1], 6.0f) &&
+          std::abs(d.cr) < std::max(reach[2], 6.0f))
+        ++near;
+    }
+    bare.in.push_back(erode(mask, 2));
+  }
+  bare.steady = static_cast<double>(near) /
+                (static_cast<double>(grids.size()) * static_cast<double>(grids[0].cells()));
+}
+
+// Means of the bare samples, per cell and per pixel; the centre where nothing was bare.
+void average_bare(std::span<const Frame> frames, const std::vector<Grid>& grids, const Bare& bare,
+                  ScreenModel& screen) {
+  const std::size_t cells = grids[0].cells();
+  const int gw = grids[0].width;
+  std::vector<std::uint16_t> count(cells);
+  std::vector<std::uint32_t> sums[3];
+  for (int p = 0; p < 3; ++p) sums[p].assign(cells, 0);
+  std::vector<std::uint32_t> pixels(frames[0].bgr.size());
+  const std::size_t row = static_cast<std::size_t>(screen.width);
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (std::size_t i = 0; i < cells; ++i) {
+      if (!bare.in[f].in[i]) continue;
+      ++count[i];
+      for (int p = 0; p < 3; ++p) sums[p][i] += grids[f].plane[p][i];
+    }
+    for (int y = 0; y < screen.height; ++y) {
+      const std::uint8_t* in = bare.in[f].row(y / 2);
+      for (int x = 0; x < screen.width; ++x) {
+        if (!in[x / 2]) continue;
+        const std::size_t at =
+            3 * (static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x));
+        for (std::size_t c = 0; c < 3; ++c) pixels[at + c] += frames[f].bgr[at + c];
+      }
+    }
+  }
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < cells; ++i) hidden += count[i] == 0;
+  screen.hidden = static_cast<float>(static_cast<double>(hidden) / static_cast<double>(cells));
+  for (int p = 0; p < 3; ++p) {
+    screen.cells[p].resize(cells);
+    for (std::size_t i = 0; i < cells; ++i)
+      screen.cells[p][i] =
+          count[i] ? 0.25f * static_cast<float>(sums[p][i]) / count[i] : bare.centre[p][i];
+  }
+  screen.plate.resize(pixels.size());
+  for (int y = 0; y < screen.height; ++y)
+    for (int x = 0; x < screen.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(gw) +
+                            static_cast<std::size_t>(x / 2);
+      const std::size_t at = 3 * (static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x));
+      for (std::size_t c = 0; c < 3; ++c)
+        screen.plate[at + c] =
+            count[i]
+                ? static_cast<std::uint8_t>((pixels[at + c] + count[i] / 2u) / count[i])
+                : static_cast<std::uint8_t>(std::clamp(bare.centre[c][i] + 0.5f, 0.0f, 255.0f));
+    }
+}
+
+void measure_noise(const std::vector<Grid>& grids, const Bare& bare, ScreenModel& screen) {
+  double squares[3] = {};
+  double count = 0;
+  for (std::size_t f = 0; f < grids.size(); ++f)
+    for (std::size_t i = 0; i < grids[f].cells(); i += 3) {
+      if (!bare.in[f].in[i]) continue;
+      const Grid& grid = grids[f];
+      const Ycc d = ycc(0.25f * grid.plane[0][i] - screen.cells[0][i],
+                        0.25f * grid.plane[1][i] - screen.cells[1][i],
+                        0.25f * grid.plane[2][i] - screen.cells[2][i]);
+      squares[0] += static_cast<double>(d.y) * static_cast<double>(d.y);
+      squares[1] += static_cast<double>(d.cb) * static_cast<double>(d.cb);
+      squares[2] += static_cast<double>(d.cr) * static_cast<double>(d.cr);
+      count += 1;
+    }
+  for (int p = 0; p < 3; ++p)
+    screen.noise[p] = count > 0 ? static_cast<float>(std::sqrt(squares[p] / count)) : 1.0f;
+  const float all =
+      std::sqrt(screen.noise[0] * screen.noise[0] +
+                2 * (screen.noise[1] * screen.noise[1] + screen.noise[2] * screen.noise[2]));
+  screen.threshold = std::max(8 * all, 9.0f);
+}
+
+// Median of each channel over the plate.
+void measure_color(ScreenModel& screen) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::uint64_t bins[256] = {};
+    for (std::size_t i = c; i < screen.plate.size(); i += 3) ++bins[screen.plate[i]];
+    std::uint64_t seen = 0;
+    int value = 0;
+    while (value < 255 && 2 * (seen += bins[value]) < screen.plate.size() / 3) ++value;
+    screen.color[2 - c] = static_cast<float>(value);
+  }
+}
+
+// The colour difference in which the screen is strong, -1 if it is too grey for one. Warm ones have
+// to be stronger: wood and skin are not screens.
+int choose_key(const float (&color)[3]) {
+  float light[3];
+  for (int c = 0; c < 3; ++c)
+    light[c] = detail::linear_of_sums()[static_cast<std::size_t>(
+        std::clamp(4 * color[c] + 0.5f, 0.0f, 1020.0f))];
+  int best = -1;
+  float strength = 0.08f;
+  const float largest = std::max({light[0], light[1], light[2]});
+  for (int key = 0; key < detail::kKeyCount; ++key) {
+    const bool warm = key == 0 || key == 5;
+    const float k = detail::key_strength(key, light[0], light[1], light[2]);
+    if (k > strength && k > (warm ? 0.45f : 0.25f) * largest) {
+      strength = k;
+      best = key;
+    }
+  }
+  return best;
+}
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(100 * share + 0.5)) + " %";
+}
+
+std::string color_text(const float (&color)[3]) {
+  char text[16];
+  std::snprintf(text, sizeof text, "#%02X%02X%02X", static_cast<unsigned>(color[0] + 0.5f),
+                static_cast<unsigned>(color[1] + 0.5f), static_cast<unsigned>(color[2] + 0.5f));
+  return text;
+}
+
+// The encoded colour at the surface's middle.
+void surface_color(const ScreenSurface& s, float (&color)[3]) {
+  const double y = s.ycc.at(0, 0, 0);
+  const double b = y + s.ycc.at(1, 0, 0) / 0.564;
+  const double r = y + s.ycc.at(2, 0, 0) / 0.713;
+  const double g = (y - 0.114 * b - 0.299 * r) / 0.587;
+  const double rgb[3] = {r, g, b};
+  for (int c = 0; c < 3; ++c) color[c] = static_cast<float>(std::clamp(rgb[c], 0.0, 255.0));
+}
+
+void model_colored(std::span<const Frame> frames, const std::vector<Grid>& grids,
+                   const ScreenSurface& surface, ScreenModel& screen) {
+  Bare bare;
+  std::vector<std::uint8_t> known;
+  const int w = grids[0].width;
+  const int h = grids[0].height;
+  const auto place = [&](std::size_t i) {
+    const int x = static_cast<int>(i % static_cast<std::size_t>(w));
+    const int y = static_cast<int>(i / static_cast<std::size_t>(w));
+    return std::pair{detail::scaled(x, w), detail::scaled(y, h)};
+  };
+  find_centres(
+      grids, bare,
+      [&](const Grid& grid, std::size_t i) {
+        const auto [u, v] = place(i);
+        return surface.near(cell_ycc(grid, i), u, v);
+      },
+      known);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i]) continue;
+    const auto [u, v] = place(i);
+    const double y = surface.ycc.at(0, u, v);
+    const double b = y + surface.ycc.at(1, u, v) / 0.564;
+    const double r = y + surface.ycc.at(2, u, v) / 0.713;
+    bare.centre[0][i] = static_cast<float>(b);
+    bare.centre[1][i] = static_cast<float>((y - 0.114 * b - 0.299 * r) / 0.587);
+    bare.centre[2][i] = static_cast<float>(r);
+  }
+  find_bare(grids, bare);
+  average_bare(frames, grids, bare, screen);
+  measure_noise(grids, bare, screen);
+  measure_color(screen);
+  screen.kind = KeyKind::Color;
+  screen.key = choose_key(screen.color);
+}
+
+Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vector<Grid>& grids,
+                                   double least_steady, ScreenModel screen) {
+  Bare bare;
+  std::vector<std::uint8_t> known;
+  find_centres(
+      grids, bare, [](const Grid&, std::size_t) { return true; }, known);
+  find_bare(grids, bare);
+  if (bare.steady < least_steady)
+    return Error{ErrorCode::BadContent,
+                 "no steady background: no colour fills the picture and " +
+                     percent(1 - bare.steady) +
+                     " of it differs from its own median over time; due: a screen of one colour or "
+                     "a camera that stands still"};
+  average_bare(frames, grids, bare, screen);
+  measure_noise(grids, bare, screen);
+  measure_color(screen);
+  screen.kind = KeyKind::Plate;
+  screen.reason =
+      "plate: the camera stands, " + percent(bare.steady) + " of the picture stays as it is";
+  return screen;
+}
+
+// What the subject's own figures have to say: how strong its colours are against the key, and how
+// large it is.
+void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
+  detail::Silhouette s;
+  const auto& light = detail::linear_of_sums();
+  std::vector<std::uint32_t> strengths(400);  // v in fiftieths
+  std::uint64_t strength_count = 0;
+  std::vector<int> areas;
+  std::vector<int> labels;
+  for (const Frame& frame : frames) {
+    detail::find_silhouette(screen, frame, s);
+    if (s.empty) continue;
+    const int parts = detail::connected_parts(s.mask, labels);
+    std::vector<int> size(static_cast<std::size_t>(parts) + 1);
+    for (const int label : labels) ++size[static_cast<std::size_t>(label)];
+    areas.push_back(*std::max_element(size.begin() + 1, size.end()));
+    if (screen.key < 0) continue;
+    const Mask deep = erode(s.mask, 4);
+    for (std::size_t i = 0; i < deep.in.size(); ++i) {
+      if (!deep.in[i]) continue;
+      float plate[3];
+      for (int p = 0; p < 3; ++p)
+        plate[p] = light[static_cast<std::size_t>(
+            std::clamp(4 * screen.cells[p][i] + 0.5f, 0.0f, 1020.0f))];
+      const float full = detail::key_strength(screen.key, plate[2], plate[1], plate[0]);
+      if (!(full > 0.02f)) continue;
+      const float v =
+          1 - detail::key_strength(screen.key, light[s.grid.plane[2][i]], light[s.grid.plane[1][i]],
+                                   light[s.grid.plane[0][i]]) /
+                  full;
+      ++strengths[static_cast<std::size_t>(std::clamp(v * 50, 0.0f, 399.0f))];
+      ++strength_count;
+    }
+  }
+  std::uint64_t seen = 0;
+  std::size_t bin = 0;
+  while (bin < 399 && 10 * (seen += strengths[bin]) < 9 * strength_count) ++bin;
+  if (strength_count > 0)
+    screen.key_normaliser = std::max(1.0f, (static_cast<float>(bin) + 0.5f) / 50);
+  if (areas.empty()) return;
+  std::nth_element(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2),
+                   areas.end());
+  const double side = std::sqrt(static_cast<double>(areas[areas.size() / 2]));
+  screen.opening = std::max(1, static_cast<int>(0.1 * side + 0.5));
+}
+
+}  // namespace
+
+Result<KeyConfig> parse_key(const std::string& text) {
+  KeyConfig config;
+  if (text == "auto") return config;
+  if (text == "plate") {
+    config.kind = KeyKind::Plate;
+    return config;
+  }
+  if (text == "none") {
+    config.kind = KeyKind::None;
+    return config;
+  }
+  if (text.size() == 7 && text[0] == '#' &&
+      text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos) {
+    const unsigned long value = std::stoul(text.substr(1), nullptr, 16);
+    config.kind = KeyKind::Color;
+    config.red = static_cast<std::uint8_t>(value >> 16);
+    config.green = static_cast<std::uint8_t>(value >> 8 & 255);
+    config.blue = static_cast<std::uint8_t>(value & 255);
+    config.color_given = true;
+    return config;
+  }
+  return Error{ErrorCode::BadSetting,
+               "key: '" + text + "' is unknown; due: auto, plate, none or #RRGGBB"};
+}
+
+Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfig& config) {
+  if (frames.empty()) return Error{ErrorCode::BadContent, "no frames to measure the screen on"};
+  ScreenModel screen;
+  screen.width = frames[0].width;
+  screen.height = frames[0].height;
+  if (config.kind == KeyKind::None) {
+    screen.kind = KeyKind::None;
+    screen.reason = "none: the whole frame is the subject, as asked";
+    return screen;
+  }
+  std::vector<Grid> grids(frames.size());
+  for (std::size_t f = 0; f < frames.size(); ++f) detail::make_grid(frames[f], grids[f]);
+
+  if (config.kind != KeyKind::Plate) {
+    ScreenColor color;
+    if (config.color_given) {
+      const Ycc given = ycc(config.blue, config.green, config.red);
+      color = {static_cast<double>(given.cb), static_cast<double>(given.cr),
+               static_cast<double>(given.y)};
+    } else {
+      color = most_frequent_color(grids);
+    }
+    const ScreenSurface surface = fit_surface(grids, color);
+    float rgb[3];
+    surface_color(surface, rgb);
+    const bool keyed = choose_key(rgb) >= 0 && surface.share > 0.3 && surface.sigma[0] < 14;
+    const bool plain = surface.share > 0.5 && surface.sigma[0] < 4;
+    if (config.color_given && surface.share < 0.05)
+      return Error{ErrorCode::BadContent,
+                   "no screen of the colour asked for: " + percent(surface.share) +
+                       " of the picture is near it; due: 5 % at least"};
+    if (config.color_given || keyed || plain) {
+      model_colored(frames, grids, surface, screen);
+      screen.reason = std::string(keyed ? "coloured" : "plain") + " screen " +
+                      color_text(screen.color) + ": " + percent(surface.share) +
+                      " of the picture lies near one smooth surface";
+      measure_subject(frames, screen);
+      return screen;
+    }
+  }
+  auto standing = model_standing(frames, grids, config.kind == KeyKind::Plate ? 0.4 : 0.75, screen);
+  if (standing) measure_subject(frames, *standing);
+  return standing;
+}
+
+}  // namespace vsprite

@@ -37,12 +37,19 @@ Result<KeyConfig> parse_key(const std::string& text);
 /// The background, per pixel, and how much it varies. Immutable once made.
 struct ScreenModel {
   KeyKind kind = KeyKind::Color;
-  std::string reason;             ///< why this kind: one sentence for the report
+  std::string reason;  ///< why this kind: one sentence for the report
   int width = 0, height = 0;
   std::vector<std::uint8_t> plate;  ///< (height, width) BGR
-  float color[3] = {};            ///< median screen colour, R G B, 0..255
-  float noise[3] = {};            ///< rms over time of the bare screen, Y Cb Cr, code values
-  // The keyer's further measurements (kind of key, normaliser, ...) follow here.
+  float color[3] = {};              ///< median screen colour, R G B, 0..255
+  float noise[3] = {};              ///< rms over time of the bare screen, Y Cb Cr, code values
+
+  // What the keyer works with. A cell is 2 x 2 pixels; planes are B, G, R as in Grid.
+  std::vector<float> cells[3];  ///< (cell rows, cell columns) mean of the plate, code values
+  float threshold = 9;          ///< code values: what differs less is screen
+  int key = -1;                 ///< index of the colour difference that marks the screen, -1: none
+  float key_normaliser = 1;     ///< the subject's usual key strength, >= 1 (film/unmix.h)
+  int opening = 2;              ///< cells, radius that removes tail and fins from the anchor's mask
+  float hidden = 0;             ///< share of the plate that was never seen bare, 0..1
 };
 
 /// Measures the screen. `frames`: 8 or more, spread over the film. Errors: BadContent (no steady

@@ -1,3 +1,247 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
+//
+// vsprite/draw.h - draws sprites, shapes, text and full-screen effects, in linear light.
+//
+// A frame is drawn into a picture of half floats that hold linear, premultiplied light, so that a
+// soft edge keeps the colour it was filmed with:  out = src + (1 - src.a) dst.  Sprite pictures
+// come as sRGB-encoded premultiplied bytes and are made linear premultiplied half floats once, when
+// they are uploaded, so that bilinear sampling between pixels is correct too. `end_frame` encodes
+// the frame as sRGB for the window, `read_pixels` for a file.
+//
+//     renderer.begin_frame(window.width(), window.height());
+//     renderer.run_effect(water, std::array{Uniform("time", seconds)});
+//     draw_actor(renderer, sprite, frames, actor);
+//     renderer.draw_text("score 12", {16, 16}, {.size = 24});
+//     renderer.end_frame();
+//
+// Positions are frame pixels, y down, moved and scaled by the camera. Everything appears in the
+// order of the calls; neighbours of one kind go to the GPU as one batch. A Renderer needs an
+// OpenGL 3.3 core or ES 3 context that is current in its thread from make_renderer until the
+// destructor has run.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "vsprite/actor.h"
+#include "vsprite/geometry.h"
+#include "vsprite/image.h"
+#include "vsprite/result.h"
+#include "vsprite/sprite.h"
+#include "vsprite/stream.h"
+
+namespace vsprite {
+
+/// Linear light, straight alpha; 1 is white. Values above 1 are allowed until the frame is encoded.
+struct Color {
+  float r = 1;
+  float g = 1;
+  float b = 1;
+  float a = 1;
+};
+
+/// From the usual sRGB notation: srgb(0x3b82c4), srgb(0xffffff, 0.5f).
+Color srgb(std::uint32_t rgb, float alpha = 1) noexcept;
+
+/// How what is drawn meets what is there.
+enum class BlendMode : std::uint8_t {
+  Over,      ///< src + (1 - src.a) dst
+  Add,       ///< src + dst: light
+  Multiply,  ///< src dst: shade
+  Replace,   ///< src
+};
+
+/// Frame pixels of a point p: (p - origin) scale + offset.
+struct Camera {
+  Vec2 origin{};  ///< game coordinates
+  float scale = 1;
+  Vec2 offset{};  ///< frame pixels
+};
+
+/// Names a picture in the texture cache; `sprite` 0 means: not cached, uploaded for this one
+/// drawing.
+struct TextureKey {
+  std::uint64_t sprite = 0;
+  std::uint32_t sample = 0;
+  friend bool operator==(const TextureKey&, const TextureKey&) = default;
+};
+
+/// One picture to draw. The anchor comes to lie at `position`, exactly, also between pixels.
+struct SpriteDraw {
+  ImageView image{};  ///< premultiplied sRGB; may be empty where is_cached(key)
+  TextureKey key{};   ///< the same key must always mean the same picture, until forget(sprite)
+  Vec2 position{};    ///< game coordinates
+  Vec2 anchor{};      ///< px of the image
+  float scale = 1;    ///< game pixels per image pixel, > 0; shrinking is area-averaged down to 1/4
+  float angle = 0;    ///< radians clockwise, about the anchor
+  bool mirror = false;   ///< left and right exchanged, about the anchor
+  Color tint{};          ///< multiplies colour; tint.a multiplies coverage
+  Color fog{};           ///< colour of the water or air in between (its alpha is not used) ...
+  float fog_amount = 0;  ///< ... 0 none, 1 a silhouette in that colour
+};
+
+/// A rounded box with a soft edge: also rectangles, discs, rings and thick lines.
+struct Shape {
+  Vec2 center{};      ///< game coordinates
+  Vec2 half_size{};   ///< game pixels
+  float radius = 0;   ///< of the corners, at most the smaller half size
+  float angle = 0;    ///< radians clockwise
+  float outline = 0;  ///< 0: filled; else the width of a line that lies inside the edge
+  float feather = 0;  ///< width over which the edge fades, beyond one pixel
+  Color color{};
+  BlendMode blend = BlendMode::Over;
+};
+Shape disc(Vec2 center, float radius, Color color) noexcept;
+Shape line(Vec2 from, Vec2 to, float width, Color color) noexcept;
+/// The box from `from` (top left) to `to`.
+Shape box(Vec2 from, Vec2 to, Color color, float radius = 0) noexcept;
+
+struct Vertex {
+  Vec2 position{};  ///< game coordinates
+  Color color{};
+};
+
+enum class Align : std::uint8_t { Left, Center, Right };
+
+struct TextStyle {
+  float size = 16;  ///< height of a line, game pixels
+  Color color{};
+  float weight = 1;  ///< stroke width against the usual 0.085 of the size
+  Align align = Align::Left;
+};
+
+/// A compiled effect; belongs to the Renderer that made it.
+struct Effect {
+  int id = -1;
+};
+
+/// A picture of linear light on the GPU, to draw into once and show often.
+struct Layer {
+  int id = -1;
+};
+
+/// A named value for an effect: float, vec2, vec3, vec4, an array of them, or a layer (sampler2D).
+/// `name` and array values are borrowed for the call. A name that the effect does not use is
+/// ignored.
+struct Uniform {
+  std::string_view name;
+  std::array<float, 4> value{};
+  int components = 1;             ///< 1..4
+  std::span<const float> values;  ///< arrays: components * length floats
+  Layer layer;
+
+  Uniform(std::string_view n, float x) : name(n), value{x} {}
+  Uniform(std::string_view n, Vec2 v) : name(n), value{v.x, v.y}, components(2) {}
+  Uniform(std::string_view n, float x, float y, float z) : name(n), value{x, y, z}, components(3) {}
+  Uniform(std::string_view n, Color c) : name(n), value{c.r, c.g, c.b, c.a}, components(4) {}
+  Uniform(std::string_view n, std::span<const float> array, int size)
+      : name(n), components(size), values(array) {}
+  Uniform(std::string_view n, Layer picture) : name(n), components(0), layer(picture) {}
+};
+
+struct EffectPass {
+  Rect area{};  ///< frame pixels (the camera is not applied); width 0: the whole frame
+  BlendMode blend = BlendMode::Over;
+};
+
+struct RendererConfig {
+  std::size_t texture_budget = std::size_t{128} << 20;  ///< bytes of cached pictures on the GPU
+  bool dither = false;  ///< +-half a step of noise when encoding: no bands in dark gradients
+};
+
+struct RendererStats {
+  std::uint64_t sprites = 0;      ///< since the last begin_frame
+  std::uint64_t batches = 0;      ///< draw calls since the last begin_frame
+  std::uint64_t uploads = 0;      ///< pictures sent to the GPU since the last begin_frame
+  std::uint64_t evictions = 0;    ///< cache pages emptied, ever
+  std::size_t texture_bytes = 0;  ///< held by the texture cache
+};
+
+/// Movable, not copyable; one thread. Drawing calls outside begin_frame .. end_frame do nothing,
+/// and neither does a frame without pixels (a window may be dragged to nothing).
+class Renderer {
+ public:
+  Renderer(Renderer&&) noexcept;
+  Renderer& operator=(Renderer&&) noexcept;
+  ~Renderer();
+
+  /// `width`, `height`: pixels of the frame, which need not be those of the window.
+  void begin_frame(int width, int height);
+  void clear(Color color);
+  void set_camera(const Camera& camera);  ///< back to none at begin_frame
+  const Camera& camera() const noexcept;
+
+  void draw_sprite(const SpriteDraw& sprite);
+  bool is_cached(const TextureKey& key) const noexcept;
+  /// Drops the cached pictures of one sprite, e.g. after its pack was loaded anew.
+  void forget(std::uint64_t sprite);
+
+  void draw_shape(const Shape& shape);
+  /// Three vertices a triangle, filled, edges not smoothed.
+  void draw_triangles(std::span<const Vertex> vertices, BlendMode blend = BlendMode::Over);
+  /// A convex polygon with smooth edges, corners in clockwise order (y down).
+  void draw_polygon(std::span<const Vec2> corners, Color color);
+  /// `position`: left end (or centre, or right end) of the first line's top. ASCII, arrows
+  /// (U+2190..2193) and a few more signs; a new line starts a line; unknown characters show a box.
+  void draw_text(std::string_view text, Vec2 position, const TextStyle& style = {});
+
+  /// Compiles a fragment shader. The text comes without #version and finds ready, y down:
+  ///   in vec2 pixel;             centre of the pixel, frame pixels        out vec4 color;  linear,
+  ///   premultiplied uniform vec2 frame_size;   frame pixels                             uniform
+  ///   sampler2D scene; vec4 scene_at(vec2 pixel)  what was drawn before this pass (only if the
+  ///   text uses it: a copy)
+  /// Errors: BadContent, with the compiler's words and the line of the text.
+  Result<Effect> make_effect(std::string_view name, std::string_view fragment);
+  void run_effect(Effect effect, std::span<const Uniform> uniforms, const EffectPass& pass = {});
+
+  /// Errors: Unavailable (no memory on the GPU for width x height).
+  Result<Layer> make_layer(int width, int height);
+  void free_layer(Layer layer);
+  /// Between these two, drawing goes to the layer, whose size is then that of the frame. Not
+  /// nested.
+  void begin_layer(Layer layer);
+  void end_layer();
+  /// Stretches the layer over `area` (frame pixels; width 0: the whole frame).
+  void draw_layer(Layer layer, const EffectPass& pass = {});
+
+  /// Encodes and sends the frame to the current framebuffer of that size (0: that of the frame),
+  /// fitted into its middle with black bars. Then swap the window.
+  void end_frame(int window_width = 0, int window_height = 0);
+  /// A point of the window in frame pixels, undoing the fit of the last end_frame.
+  Vec2 frame_from_window(Vec2 point) const noexcept;
+
+  /// The frame as straight sRGB RGBA, top down: inside a frame what was drawn so far, after
+  /// end_frame the whole. Empty for a frame without pixels.
+  Image read_pixels();
+
+  int width() const noexcept;  ///< of the frame or layer being drawn
+  int height() const noexcept;
+  const RendererStats& stats() const noexcept;
+  /// "OpenGL 4.5 llvmpipe", for overlays and reports.
+  const std::string& device() const noexcept;
+
+  struct Impl;
+  explicit Renderer(std::unique_ptr<Impl> impl) noexcept;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Errors: Unavailable (no current context, or older than OpenGL 3.3 / ES 3).
+Result<Renderer> make_renderer(const RendererConfig& config = {});
+
+/// Width of the longest line and height of all, game pixels.
+Vec2 measure_text(std::string_view text, const TextStyle& style = {}) noexcept;
+
+/// Draws an actor where it is, `fraction` of a tick after its last step. `look` may set scale,
+/// angle, mirror, tint and fog, and move it: its position is added.
+void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
+                float fraction = 0, const SpriteDraw& look = {});
+
+}  // namespace vsprite

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// scene.h - draws the tank: water and light, weeds, fish by depth, food, bubbles, sparks.
+//
+// It reads the world and never changes it. What only decorates (bubbles, motes, sparks) is a
+// function of time and of the events it was told, so that a replay looks the same.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "light.h"
+#include "plants.h"
+#include "vsprite/draw.h"
+#include "vsprite/stream.h"
+#include "world.h"
+
+namespace aquarium {
+
+/// Middle draws the water at half the resolution, Low everything behind the player's fish.
+enum class Quality : std::uint8_t { Low, Middle, High };
+
+/// What is drawn, and when: `fraction` of a tick after the world's last step.
+struct Moment {
+  const vsprite::Sprite& sprite;
+  const World& world;
+  float fraction = 0;
+  float seconds = 0;  ///< since the game began; drives water, light and weeds
+};
+
+class Scene {
+ public:
+  /// Compiles the effects. Errors: those of Renderer::make_effect and make_layer.
+  static vsprite::Result<Scene> make(vsprite::Renderer& renderer);
+
+  /// Call after every tick: turns the world's events into sparks and rings.
+  void notice(const World& world, float seconds);
+  /// Draws the tank into the frame that has begun. The backdrop is drawn anew once a changed size
+  /// has held for a moment (`settled`), until then the old one is stretched.
+  void draw(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,
+            bool settled);
+  void set_quality(Quality quality) { quality_ = quality; }
+  Quality quality() const { return quality_; }
+
+ private:
+  struct Spark {
+    Event event;
+    float born = 0;
+  };
+  void draw_backdrop(vsprite::Renderer& renderer);
+  void draw_water(vsprite::Renderer& renderer, float seconds);
+  void draw_far(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment);
+  void draw_coarse(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment);
+  void draw_plants(vsprite::Renderer& renderer, const Moment& moment, float far, float near);
+  void draw_fish(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,
+                 const Fish& fish) const;
+  void draw_food(vsprite::Renderer& renderer, const Moment& moment) const;
+  void draw_sparks(vsprite::Renderer& renderer, float seconds);
+  void draw_bubbles(vsprite::Renderer& renderer, float seconds, bool near) const;
+  void draw_motes(vsprite::Renderer& renderer, float seconds) const;
+
+  vsprite::Effect wall_, gravel_, stone_, wood_, caustics_, water_, net_effect_, surface_;
+  vsprite::Layer backdrop_, net_, coarse_;
+  int backdrop_width_ = 0, backdrop_height_ = 0;
+  int coarse_width_ = 0, coarse_height_ = 0;
+  Quality quality_ = Quality::High;
+  View view_;
+  std::vector<Plant> plants_ = make_plants();
+  std::vector<Wake> wakes_;
+  std::vector<vsprite::Vertex> vertices_;
+  std::vector<Spark> sparks_;
+};
+
+}  // namespace aquarium

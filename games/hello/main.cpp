@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// hello - the smallest game: a filmed character that goes where the arrow keys say.
+#include "arguments.h"
+#include "vsprite/session.h"
+#include "vsprite/vsprite.h"
+
+using namespace vsprite;
+
+namespace {
+
+// A character that leaves the window comes back on the other side.
+void wrap(Actor& actor, const Renderer& screen, float margin) {
+  const auto around = [&](std::int64_t& value, int size) {
+    const auto edge = static_cast<std::int64_t>(margin) * kFixedOne;
+    const std::int64_t far = size * kFixedOne + edge;
+    if (value < -edge) value = far;
+    if (value > far) value = -edge;
+  };
+  around(actor.position.x, screen.width());
+  around(actor.position.y, screen.height());
+}
+
+Result<void> play(const games::Arguments& arguments) {
+  const Result<Sprite> sprite = load_pack(arguments.pack);
+  if (!sprite) return sprite.error();
+  Result<Session> session = Session::open({.title = "hello",
+                                           .fps = sprite->fps(),
+                                           .headless = arguments.headless,
+                                           .full_screen = arguments.full_screen,
+                                           .frames = arguments.frames,
+                                           .keys = arguments.keys,
+                                           .record = arguments.record});
+  if (!session) return session.error();
+
+  Renderer& screen = session->renderer();
+  FrameCache frames(*sprite);
+  Actor actor = make_actor(*sprite, {640, 360}, arguments.seed);
+  while (session->next_frame()) {
+    while (session->next_tick()) {
+      set_direction(*sprite, actor, session->direction());
+      step(*sprite, actor);
+      wrap(actor, screen, sprite->data().body_length / 2);
+    }
+    screen.clear(srgb(0x9cc4d8));
+    draw_actor(screen, *sprite, frames, actor, session->fraction());
+    session->show();
+    if (session->input().was_pressed(kKeyEscape)) session->close();
+  }
+  return session->finish();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return games::run(argc, argv, "hello", "build/goldfish.vsp", play);
+}

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// film/grid.h - pictures on the chroma grid, where one cell is 2 x 2 pixels.
+//
+// Films carry colour at half resolution (4:2:0). The decoder repeats each colour over its cell, so
+// the sum over a cell is what the film really holds; everything that compares colours works here.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "film/video.h"
+
+namespace vsprite::detail {
+
+/// Sums of the four pixels of a cell, 0..1020, one plane a channel: B, G, R. At an odd right or
+/// lower edge the last pixel counts twice.
+struct Grid {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> plane[3];
+
+  std::size_t cells() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+};
+
+/// Fills `grid` from a frame.
+void make_grid(const Frame& frame, Grid& grid);
+
+/// A map of cells, 1 = in, row-major, of the given width and height.
+struct Mask {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> in;
+
+  Mask() = default;
+  Mask(int w, int h)
+      : width(w), height(h), in(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+  std::uint8_t* row(int y) { return in.data() + static_cast<std::ptrdiff_t>(y) * width; }
+  const std::uint8_t* row(int y) const {
+    return in.data() + static_cast<std::ptrdiff_t>(y) * width;
+  }
+};
+
+/// Square neighbourhoods of (2 radius + 1)^2 cells; outside counts as out (dilate), in (erode).
+Mask dilate(const Mask& mask, int radius);
+Mask erode(const Mask& mask, int radius);
+
+/// Near-Euclidean distance of each cell to the nearest cell that is `value`, in fifths of a cell
+/// (chamfer 5-7), at most 30,000. Outside the map counts as nothing.
+std::vector<std::uint16_t> distance_to(const Mask& mask, std::uint8_t value);
+
+/// Opening with a disc of `radius` cells: parts thinner than the disc vanish.
+Mask open_disc(const Mask& mask, int radius);
+
+/// Sum over boxes of 2 radius + 1, `passes` times in both directions, divided by the box: near
+/// Gaussian of variance passes ((2 radius + 1)^2 - 1) / 12. Outside is 0. `scratch` is working
+/// room.
+void blur(std::vector<float>& plane, int width, int height, int radius, int passes,
+          std::vector<float>& scratch);
+
+/// Labels of the 8-connected parts of `mask`, 1.. in the order of their first cell; 0 = out.
+/// Returns their number.
+int connected_parts(const Mask& mask, std::vector<int>& labels);
+
+}  // namespace vsprite::detail

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// film/silhouette.h - where a frame differs from its plate, on the chroma grid.
+#pragma once
+
+#include "film/grid.h"
+#include "film/plate.h"
+
+namespace vsprite::detail {
+
+/// The six colour differences that a screen may be strong in: R, G, B, cyan, magenta, yellow.
+inline constexpr int kKeyCount = 6;
+/// Strength of colour difference `key` of a linear colour (r, g, b): one channel less the larger of
+/// the others, or the lesser of two less the third.
+float key_strength(int key, float r, float g, float b) noexcept;
+
+/// Quadratic in x, y (both scaled to -1..1 over the grid) for each plane: 1 x y xx xy yy.
+struct Surface {
+  double coefficient[3][6] = {};
+  double at(int plane, double x, double y) const {
+    const double* k = coefficient[plane];
+    return k[0] + k[1] * x + k[2] * y + k[3] * x * x + k[4] * x * y + k[5] * y * y;
+  }
+};
+
+/// Least squares of a quadratic, accumulated sample by sample, three planes at once.
+class SurfaceFit {
+ public:
+  void add(double x, double y, const double (&value)[3]);
+  int count() const { return count_; }
+  /// False where the samples do not determine it (then `surface` holds their mean).
+  bool solve(Surface& surface) const;
+
+ private:
+  double normal_[6][6] = {};
+  double right_[3][6] = {};
+  int count_ = 0;
+};
+
+/// A frame's own plate: the film's plate and the drift of exposure since, and what differs from it.
+struct Silhouette {
+  Grid grid;      ///< the frame
+  Surface drift;  ///< frame - plate on the bare screen, code values
+  Mask mask;      ///< whole grid, 1 = not screen
+  bool empty = true;
+  int left = 0, top = 0, right = 0,
+      bottom = 0;  ///< cells, box of the mask, right and bottom outside
+};
+
+/// Scaled coordinate of cell index i of n: -1..1.
+inline double scaled(int i, int n) { return n > 1 ? 2.0 * i / (n - 1) - 1 : 0.0; }
+
+/// Finds what is not screen. The result's buffers are reused from call to call.
+void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& result);
+
+}  // namespace vsprite::detail

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// film/unmix.h - coverage and foreground colour on the chroma grid, in linear light.
+//
+//     C = alpha F + (1 - alpha) B        D = C - B,  m = mu - B
+//     alpha = (D . q) / (m . q),         q = S^-1 m,  S = alpha^2 Sigma_F + sigma_n^2 I
+//
+// mu and Sigma_F are the mean and covariance of the sure subject (the seeds) nearby. Where the
+// subject is colourless its covariance lies along grey and luma is forgiven: the formula becomes a
+// colour-difference key; where colour says little it becomes a luma key. No threshold decides that.
+#pragma once
+
+#include <vector>
+
+#include "film/silhouette.h"
+
+namespace vsprite::detail {
+
+/// The part of a frame that holds the subject. All maps are (height, width) cells.
+struct Patch {
+  int left = 0, top = 0, width = 0, height = 0;  ///< cells, place in the grid
+  Mask region;                                   ///< where alpha may be above 0
+  std::vector<float> frame[3], plate[3];         ///< C, B: linear R, G, B
+  std::vector<float> noise[3];                   ///< sigma_n, linear
+  Mask seeds;                                    ///< surely subject
+  std::vector<float> alpha;                      ///< the result
+  std::vector<float> mean[3];                    ///< mu: the foreground nearby
+
+  std::size_t cells() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+};
+
+/// Cuts the patch around the silhouette out of frame and plate, in linear light.
+void cut_patch(const ScreenModel& screen, const Silhouette& silhouette, Patch& patch);
+
+/// Finds the seeds, then alpha and mean.
+void unmix(const ScreenModel& screen, Patch& patch);
+
+}  // namespace vsprite::detail

@@ -1,0 +1,332 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "tool/settings.h"
+
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+#include "film/plate.h"
+
+namespace vsprite {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  std::string out(text, end);
+  return out.find_first_of(".e") == std::string::npos ? out + ".0" : out;
+}
+
+Error bad(std::string_view name, const std::string& text, const std::string& due) {
+  return {ErrorCode::BadSetting, "--" + std::string(name) + " " + text + ": " + due + " is due"};
+}
+
+/// The name, default and range of a number stand here once; text for people is made from them.
+struct Row {
+  std::vector<Option> options;
+  std::vector<std::string> texts;  ///< owns what the views show
+
+  std::string_view keep(std::string text) {
+    texts.push_back(std::move(text));
+    return texts.back();
+  }
+
+  Option& text(std::string_view name, std::string_view value, std::string Settings::*field,
+               std::string_view help, std::string_view verbs, std::string_view range = {}) {
+    const auto set = [name, field, range](Settings& s, const std::string& v) -> Result<void> {
+      if (!range.empty()) {
+        const std::string list = "|" + std::string(range) + "|";
+        if (v.empty() || v.find('|') != std::string::npos ||
+            list.find("|" + v + "|") == std::string::npos)
+          return bad(name, v, "one of " + std::string(range));
+      }
+      s.*field = v;
+      return {};
+    };
+    const Settings defaults;
+    options.push_back({name, 0, value, help, keep(defaults.*field), range, verbs, true, set,
+                       [field](const Settings& s) { return quoted(s.*field); }});
+    return options.back();
+  }
+
+  template <class Int>
+  Option& whole(std::string_view name, std::string_view value, Int Settings::*field, Int low,
+                Int high, std::string_view help, std::string_view verbs) {
+    const auto set = [name, field, low, high](Settings& s, const std::string& v) -> Result<void> {
+      Int parsed{};
+      const auto [end, error] = std::from_chars(v.data(), v.data() + v.size(), parsed);
+      if (error != std::errc{} || end != v.data() + v.size() || parsed < low || parsed > high)
+        return bad(name, v,
+                   "a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+      s.*field = parsed;
+      return {};
+    };
+    const Settings defaults;
+    options.push_back({name, 0, value, help, keep(std::to_string(defaults.*field)),
+                       keep(std::to_string(low) + ".." + std::to_string(high)), verbs, true, set,
+                       [field](const Settings& s) { return std::to_string(s.*field); }});
+    return options.back();
+  }
+
+  /// `low` <= value <= `high`, or < `high` where `open`.
+  Option& real(std::string_view name, std::string_view value, double Settings::*field, double low,
+               double high, bool open, std::string_view help, std::string_view verbs) {
+    const auto set = [=](Settings& s, const std::string& v) -> Result<void> {
+      double parsed = 0;
+      const auto [end, error] = std::from_chars(v.data(), v.data() + v.size(), parsed);
+      const bool in = parsed >= low && (open ? parsed < high : parsed <= high);
+      if (error != std::errc{} || end != v.data() + v.size() || !std::isfinite(parsed) || !in)
+        return bad(name, v,
+                   "a number from " + number(low) + (open ? " to below " : " to ") + number(high));
+      s.*field = parsed;
+      return {};
+    };
+    const Settings defaults;
+    options.push_back({name, 0, value, help, keep(number(defaults.*field)),
+                       keep(number(low) + ".." + (open ? "<" : "") + number(high)), verbs, true,
+                       set, [field](const Settings& s) { return number(s.*field); }});
+    return options.back();
+  }
+
+  Option& flag(std::string_view name, bool Settings::*field, std::string_view help,
+               std::string_view verbs) {
+    const auto set = [name, field](Settings& s, const std::string& v) -> Result<void> {
+      if (v != "true" && v != "false") return bad(name, v, "true or false");
+      s.*field = v == "true";
+      return {};
+    };
+    options.push_back({name, 0, {}, help, {}, {}, verbs, true, set, [field](const Settings& s) {
+                         return std::string(s.*field ? "true" : "false");
+                       }});
+    return options.back();
+  }
+
+  Option& list(std::string_view name, std::string_view value,
+               std::vector<std::string> Settings::*field, std::string_view help,
+               std::string_view verbs, std::string_view range) {
+    Option& option = text(name, value, &Settings::film, help, verbs, range);
+    const auto check = option.set;
+    option.set = [check, field](Settings& s, const std::string& v) -> Result<void> {
+      Settings scratch;
+      if (auto checked = check(scratch, v); !checked) return checked;
+      (s.*field).push_back(v);
+      return {};
+    };
+    option.get = [](const Settings&) { return std::string("\"\""); };
+    option.in_config = false;
+    return option;
+  }
+};
+
+constexpr std::string_view kSegment = " segment build play ";
+constexpr std::string_view kTrain = " train build play ";
+constexpr std::string_view kTransitions = " transitions build play ";
+constexpr std::string_view kSolve = " solve build play ";
+
+void add_stage_options(Row& t) {
+  t.text("key", "KEY", &Settings::key,
+         "background: auto, plate (standing camera), none, or #RRGGBB", kSegment);
+  t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
+    if (const auto parsed = parse_key(v); !parsed) return parsed.error();
+    s.key = v;
+    return {};
+  };
+  t.whole("max-size", "PX", &Settings::max_size, 16, 4096,
+          "longest side of the largest sprite picture, px", kSegment);
+  t.real("smooth", "FRAMES", &Settings::smooth, 0, 8, false,
+         "sigma of the Gaussian that smooths positions before velocities, frames", kSegment);
+  t.whole("min-clip", "FRAMES", &Settings::min_clip, 2, 1000, "shorter clips are dropped, frames",
+          kSegment);
+  t.whole("pairs", "N", &Settings::pairs, 50, 1000000, "labelled pairs taken from the film",
+          kTrain);
+  t.whole("folds", "N", &Settings::folds, 2, 20, "parts for held-out testing", kTrain);
+  t.real("false-accept-cost", "X", &Settings::false_accept_cost, 1, 1000, false,
+         "price of a visible jump, in rejected good ones", kTrain);
+  t.whole("max-per-sample", "N", &Settings::max_per_sample, 1, 10000,
+          "cheapest transitions kept out of a sample", kTransitions);
+  t.whole("min-back", "SAMPLES", &Settings::min_back, 1, 1000,
+          "shortest jump backwards inside a clip, samples", kTransitions);
+  t.real("alpha", "A", &Settings::alpha, 0, 1, true, "discount of the future, per sample", kSolve);
+  t.real("w1", "W", &Settings::w1, 0, 1000, false, "price of a radian off the command", kSolve);
+  t.real("cap", "T", &Settings::cap, 0.001, 1000, false,
+         "dearer transitions are not used; 1 = the classifier's threshold", kSolve);
+  t.whole("free-steps", "K", &Settings::free_steps, 0, 10,
+          "transitions without a motion constraint after a change of direction", kSolve);
+}
+
+void add_use_options(Row& t) {
+  t.text("keys", "SCRIPT", &Settings::keys,
+         "held directions by seconds: \"0.0 right; 2.5 right+up\", or a file of them",
+         " steer play ");
+  t.whole("frames", "N", &Settings::frames, 0, 1000000000,
+          "ticks to run; 0 = 12 s (steer), for ever (play)", " steer play ");
+  t.text("mode", "MODE", &Settings::mode, "which solved tables steer", " steer ",
+         "paper|responsive");
+  t.text("trace", "FILE", &Settings::trace, "one line a tick, as CSV", " steer ");
+  t.flag("headless", &Settings::headless, "no window: play the keys and end", " play ");
+  t.text("record", "FILE", &Settings::record, "film of the run (.mp4) or last picture (.png)",
+         " play ");
+  t.text("what", "WHAT", &Settings::what, "which numbers", " dump ",
+         "samples|labels|features|distances|transitions|values");
+  t.text("format", "FORMAT", &Settings::format, "how they are written", " dump ", "csv|npy");
+  t.text("pairs", "FILE", &Settings::pair_file,
+         "with --what features: a file of pairs to compare, `i,j` a line", " dump ")
+      .in_config = false;
+}
+
+void add_common_options(Row& t) {
+  t.text("output", "FILE", &Settings::output, "the file to write", " build pack dump play ")
+      .letter = 'o';
+  t.text("work", "DIR", &Settings::work,
+         "work folder; default: the pack's path with .work for .vsp",
+         " segment train transitions solve pack build play dump doctor ");
+  t.list("force", "STAGE", &Settings::force, "run this stage again, whatever stands there",
+         " segment train transitions solve pack build play ",
+         "segment|train|transitions|solve|pack|all");
+  t.whole("jobs", "N", &Settings::jobs, 0, 1024,
+          "threads, 0 = all; the result does not depend on it", "*");
+  t.whole<std::uint64_t>("seed", "N", &Settings::seed, 0, UINT64_MAX,
+                         "seed of everything drawn at random", "*");
+  t.text("config", "FILE", &Settings::config, "TOML file in which every option can stand", "*")
+      .in_config = false;
+  t.list("set", "KEY=VALUE", &Settings::set, "one option, as in the config file", "*", {});
+  t.flag("dump-config", &Settings::dump_config, "print the settings as TOML and end", "*")
+      .in_config = false;
+  t.flag("json", &Settings::json, "stdout is one JSON document", "*");
+  t.flag("quiet", &Settings::quiet, "errors only", "*");
+  t.flag("verbose", &Settings::verbose, "more about each step", "*");
+  t.text("progress", "MODE", &Settings::progress, "how progress is shown", "*",
+         "auto|bar|lines|json|none");
+}
+
+Row make_table() {
+  Row t;
+  // Views into `texts` must stay: neither vector may grow beyond this.
+  t.texts.reserve(200);
+  t.options.reserve(100);
+  add_stage_options(t);
+  add_use_options(t);
+  add_common_options(t);
+  return t;
+}
+
+std::string unknown_key(std::string_view key) {
+  std::vector<std::string> names;
+  for (const Option& option : all_options()) names.emplace_back(option.name);
+  const std::string near = nearest_name(key, names);
+  return "no setting is called `" + std::string(key) + "`" +
+         (near.empty() ? std::string(": vsprite build --dump-config lists them")
+                       : ": did you mean `" + near + "`");
+}
+
+/// A TOML scalar as the text that the command line would carry.
+std::string scalar_text(const toml::node& node) {
+  if (const auto* s = node.as_string()) return s->get();
+  if (const auto* i = node.as_integer()) return std::to_string(i->get());
+  if (const auto* b = node.as_boolean()) return b->get() ? "true" : "false";
+  if (const auto* f = node.as_floating_point()) return number(f->get());
+  return {};
+}
+
+}  // namespace
+
+std::span<const Option> all_options() {
+  static const Row table = make_table();
+  return table.options;
+}
+
+bool takes(const Option& option, std::string_view verb) {
+  return option.verbs == "*" ||
+         option.verbs.find(" " + std::string(verb) + " ") != std::string_view::npos;
+}
+
+const Option* find_option(std::string_view name) {
+  for (const Option& option : all_options())
+    if (option.name == name) return &option;
+  return nullptr;
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
+  std::string best;
+  std::size_t best_edits = name.size() / 3 + 2;  // beyond that it is no slip of the finger
+  for (const std::string& candidate : candidates) {
+    std::vector<std::size_t> row(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= name.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t replaced = diagonal + (name[i - 1] != candidate[j - 1] ? 1 : 0);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+      }
+    }
+    if (row.back() < best_edits) {
+      best_edits = row.back();
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+Result<void> apply_config(Settings& settings, const std::string& text, const std::string& path) {
+  const auto place = [&path](const toml::source_position& at) {
+    return path + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": ";
+  };
+  const toml::parse_result parsed = toml::parse(text);
+  if (!parsed)
+    return Error{ErrorCode::BadContent, place(parsed.error().source().begin) + "not TOML: " +
+                                            std::string(parsed.error().description())};
+  for (const auto& [key, node] : parsed.table()) {
+    const std::string where = place(key.source().begin);
+    const Option* option = find_option(key.str());
+    if (option == nullptr || !option->in_config)
+      return Error{ErrorCode::BadContent, where + unknown_key(key.str())};
+    if (!node.is_value())
+      return Error{ErrorCode::BadContent, where + std::string(key.str()) +
+                                              ": a single value is due, not a table or array"};
+    if (const auto set = option->set(settings, scalar_text(node)); !set)
+      return Error{ErrorCode::BadContent, where + set.error().message};
+  }
+  return {};
+}
+
+Result<void> apply_assignment(Settings& settings, const std::string& assignment) {
+  const auto equals = assignment.find('=');
+  if (equals == std::string::npos)
+    return Error{ErrorCode::BadSetting, "--set " + assignment + ": KEY=VALUE is due"};
+  const std::string key = assignment.substr(0, equals);
+  const Option* option = find_option(key);
+  if (option == nullptr || !option->in_config)
+    return Error{ErrorCode::BadSetting, "--set " + assignment + ": " + unknown_key(key)};
+  return option->set(settings, assignment.substr(equals + 1));
+}
+
+std::string dump_config(const Settings& settings) {
+  std::string out = "# vsprite settings; every option of the command line can stand here\n";
+  for (const Option& option : all_options()) {
+    if (!option.in_config) continue;
+    out += "\n# " + std::string(option.help);
+    if (!option.range.empty()) out += " (" + std::string(option.range) + ")";
+    const std::string value = option.get(settings);
+    out += "\n" + std::string(value == "\"\"" ? "# " : "") + std::string(option.name) + " = " +
+           value + "\n";
+  }
+  return out;
+}
+
+}  // namespace vsprite

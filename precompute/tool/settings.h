@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// tool/settings.h - every option of the tool: one table for the command line, the config file,
+// help.
+//
+// An option has one name everywhere: `--max-size 128`, `--set max-size=128`, `max-size = 128` in a
+// TOML file. The command line wins over --set, --set over the file, the file over the default.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vsprite/result.h"
+
+namespace vsprite {
+
+struct Settings {
+  // Where.
+  std::string film;    ///< the verb's operand: film, pack or work folder
+  std::string output;  ///< -o
+  std::string work;    ///< --work
+  std::string config;  ///< --config
+
+  // Making a sprite.
+  std::string key = "auto";
+  int max_size = 256;
+  double smooth = 1.2;
+  int min_clip = 8;
+  int pairs = 3000;
+  int folds = 5;
+  double false_accept_cost = 10;
+  int max_per_sample = 100;
+  int min_back = 15;
+  double alpha = 0.97;
+  double w1 = 0.6;
+  double cap = 1;
+  int free_steps = 5;
+
+  // Playing it.
+  std::string keys;
+  int frames = 0;  ///< 0: the verb's own default
+  std::string mode = "paper";
+  std::string trace;
+  std::string record;
+  bool headless = false;
+
+  // Looking into it.
+  std::string what;
+  std::string format = "csv";
+  std::string pair_file;
+
+  // How.
+  int jobs = 0;
+  std::uint64_t seed = 1;
+  std::vector<std::string> force;
+  std::vector<std::string> set;
+  std::string progress = "auto";
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool dump_config = false;
+};
+
+/// One row of the table.
+struct Option {
+  std::string_view name;      ///< without dashes
+  char letter;                ///< short form, or 0
+  std::string_view value;     ///< placeholder with the unit, e.g. "PX"; empty: a switch
+  std::string_view help;      ///< half a sentence
+  std::string_view fallback;  ///< the default, as text; empty: none
+  std::string_view range;     ///< "16..4096", "a|b|c", or empty
+  std::string_view verbs;     ///< " segment build "; "*" = every verb
+  bool in_config;             ///< may stand in a config file
+  std::function<Result<void>(Settings&, const std::string&)> set;  ///< BadSetting
+  std::function<std::string(const Settings&)> get;                 ///< as TOML
+};
+
+/// The table, in the order of the help screens.
+std::span<const Option> all_options();
+bool takes(const Option& option, std::string_view verb);
+const Option* find_option(std::string_view name);
+
+/// The candidate with the fewest edits, or empty if none is near.
+std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+/// Applies `key = value` of a TOML text. Errors: BadContent, naming file, line and column.
+Result<void> apply_config(Settings& settings, const std::string& text, const std::string& path);
+/// Applies one `key=value`. Errors: BadSetting.
+Result<void> apply_assignment(Settings& settings, const std::string& assignment);
+/// Every option that may stand in a config file, as TOML with comments.
+std::string dump_config(const Settings& settings);
+
+}  // namespace vsprite
