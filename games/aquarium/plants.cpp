@@ -15,7 +15,7 @@ using vsprite::Vertex;
 
 namespace {
 
-constexpr std::size_t kMostNodes = 15;
+constexpr std::size_t kMostNodes = 12;
 
 /// A place on the middle line of a ribbon.
 struct Node {
@@ -65,7 +65,33 @@ std::array<Vertex, 5> across(const Ribbon& ribbon, std::size_t k, float feather)
           Vertex{at(node.half + feather), out_right}};
 }
 
+/// For stalks and grass of a few pixels: a bright middle between two faded edges.
+void append_thin(const Ribbon& ribbon, float feather, std::vector<Vertex>& out) {
+  const auto points = [&](std::size_t k) {
+    const Node& node = ribbon.nodes[k];
+    const Vec2 n = normal_at(ribbon, k);
+    const float way = node.half + 0.7f * feather;
+    Color left = node.left;
+    Color right = node.right;
+    left.a = right.a = 0;
+    return std::array<Vertex, 3>{Vertex{{node.at.x - n.x * way, node.at.y - n.y * way}, left},
+                                 Vertex{node.at, mix(node.left, node.right, 0.5f)},
+                                 Vertex{{node.at.x + n.x * way, node.at.y + n.y * way}, right}};
+  };
+  std::array<Vertex, 3> before = points(0);
+  for (std::size_t k = 1; k < ribbon.count; ++k) {
+    const std::array<Vertex, 3> here = points(k);
+    quad(out, before[0], before[1], here[0], here[1]);
+    quad(out, before[1], before[2], here[1], here[2]);
+    before = here;
+  }
+}
+
+/// Wide ribbons get a crisp body; those of a few pixels need no more than half the triangles.
 void append(const Ribbon& ribbon, float feather, std::vector<Vertex>& out) {
+  float widest = 0;
+  for (std::size_t k = 0; k < ribbon.count; ++k) widest = std::max(widest, ribbon.nodes[k].half);
+  if (widest < 2.5f * feather) return append_thin(ribbon, feather, out);
   std::array<Vertex, 5> before = across(ribbon, 0, feather);
   for (std::size_t k = 1; k < ribbon.count; ++k) {
     const std::array<Vertex, 5> here = across(ribbon, k, feather);
@@ -95,9 +121,9 @@ Color in_water(Color c, const Water& water, Vec2 at, float light) {
 
 /// A blade from `foot` upwards, `lean` to the side; widest at a third of its height.
 Ribbon make_blade(const Plant& plant, const Water& water, Vec2 foot, float height, float lean,
-                  float half, float phase) {
+                  float half, float phase, std::size_t nodes = kMostNodes) {
   Ribbon ribbon;
-  ribbon.count = kMostNodes;
+  ribbon.count = nodes;
   for (std::size_t k = 0; k < ribbon.count; ++k) {
     const float u = static_cast<float>(k) / static_cast<float>(ribbon.count - 1);
     Vec2 at{foot.x + lean * u * u, foot.y - height * u * (1 - 0.12f * u)};
@@ -116,7 +142,7 @@ Ribbon make_blade(const Plant& plant, const Water& water, Vec2 foot, float heigh
 void append_leaf(const Plant& plant, const Water& water, Vec2 root, Vec2 along, float half, float u,
                  std::vector<Vertex>& out) {
   Ribbon leaf;
-  leaf.count = 6;
+  leaf.count = 4;
   const Color c = mix(plant.base, plant.tip, u);
   const float length = std::sqrt(along.x * along.x + along.y * along.y);
   for (std::size_t k = 0; k < leaf.count; ++k) {
@@ -136,7 +162,7 @@ void grow_ribbons(const Plant& plant, const Water& water, Random dice, std::vect
                     plant.foot.y + dice.between(-5, 5)};
     const float height = plant.height * dice.between(0.55f, 1.0f);
     const float lean = dice.between(-0.22f, 0.22f) * plant.height;
-    const float half = plant.height * dice.between(0.014f, 0.021f) + 1.2f;
+    const float half = plant.height * dice.between(0.009f, 0.015f) + 1.2f;
     append(make_blade(plant, water, foot, height, lean, half, dice.between(0, 6.28f)),
            water.feather, out);
   }
@@ -149,9 +175,9 @@ void grow_stems(const Plant& plant, const Water& water, Random dice, std::vector
     const float height = plant.height * dice.between(0.6f, 1.0f);
     const float phase = dice.between(0, 6.28f);
     const float lean = dice.between(-0.15f, 0.15f) * plant.height;
-    const Ribbon stem = make_blade(plant, water, foot, height, lean, 1.6f, phase);
-    append(stem, water.feather, out);
-    const int pairs = std::max(5, static_cast<int>(height / 13));
+    const Ribbon stem = make_blade(plant, water, foot, height, lean, 1.6f, phase, 8);
+    append_thin(stem, water.feather, out);
+    const int pairs = std::max(5, static_cast<int>(height / 16));
     for (int p = 1; p <= pairs; ++p) {
       const float u = static_cast<float>(p) / static_cast<float>(pairs);
       const float place = u * static_cast<float>(stem.count - 1);
@@ -201,9 +227,9 @@ void grow_tuft(const Plant& plant, const Water& water, Random dice, std::vector<
     const float x = dice.between(-1, 1);
     const Vec2 foot{plant.foot.x + x * plant.spread, plant.foot.y + dice.between(-7, 7)};
     const float height = plant.height * dice.between(0.45f, 1.0f) * (1 - 0.5f * x * x);
-    append(make_blade(plant, water, foot, height, dice.between(-0.6f, 0.6f) * height, 2.0f,
-                      dice.between(0, 6.28f)),
-           water.feather, out);
+    append_thin(make_blade(plant, water, foot, height, dice.between(-0.6f, 0.6f) * height, 2.0f,
+                           dice.between(0, 6.28f), 6),
+                water.feather, out);
   }
 }
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// control/response.h - how a solved sprite answers: which directions it can travel, how well, how fast.
+// control/response.h - how a solved sprite answers: which directions it can travel, how well, how
+// fast.
 //
 // Runs the engine's own actor, so that what is measured is what a player gets.
 #pragma once
@@ -22,11 +23,12 @@ namespace vsprite {
 /// position(12 s) - position(2 s), mean of five seeded starts.
 struct DirectionReport {
   Direction direction = Direction::Right;
-  bool reachable = false;                        ///< travels, within 60 degrees of the command
-  std::optional<double> tracking_error_deg;      ///< empty where unreachable
-  double speed = 0;                              ///< px/s of that displacement
+  bool reachable = false;                    ///< travels, within 60 degrees of the command
+  std::optional<double> tracking_error_deg;  ///< empty where unreachable
+  double speed = 0;                          ///< px/s of that displacement
 };
-std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode, std::uint64_t seed);
+std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode,
+                                                              std::uint64_t seed);
 
 /// A headless control run: one row a tick.
 struct TraceRow {
@@ -41,15 +43,16 @@ struct TraceRow {
 struct SteerReport {
   std::uint64_t frames = 0;
   std::uint64_t states_hash = 0;
-  std::optional<double> tracking_error_deg;      ///< mean over the served directions
-  double turn_median = 0, turn_p95 = 0;          ///< frames_to_turn, ticks
+  std::optional<double> tracking_error_deg;  ///< mean over the served directions
+  double turn_median = 0, turn_p95 = 0;      ///< frames_to_turn, ticks
   int turns = 0, unfinished = 0;
   double cost_mean = 0, cost_p99 = 0, cost_max = 0;
   double jumps_per_second = 0;
   std::uint64_t freezes = 0;
 };
-SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script, std::uint64_t frames,
-                             std::uint64_t seed, std::vector<TraceRow>* trace = nullptr);
+SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script,
+                             std::uint64_t frames, std::uint64_t seed,
+                             std::vector<TraceRow>* trace = nullptr);
 
 /// Commands that change every `min_s`..`max_s` seconds to another of the eight, for `seconds`.
 KeyScript random_script(double seconds, double min_s, double max_s, double fps, std::uint64_t seed);
