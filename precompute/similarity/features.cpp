@@ -41,17 +41,15 @@ double quantile(std::vector<double>& values, double share) {
   return values[static_cast<std::size_t>(k)];
 }
 
-void measure_speeds(FeatureSet& set) {
+void set_speeds(FeatureSet& set) {
   std::vector<double> speeds, areas;
   for (const FeatureSample& s : set.samples) {
     speeds.push_back(static_cast<double>(s.speed));
     areas.push_back(static_cast<double>(s.area));
   }
-  if (speeds.empty()) return;
-  const double floor = std::max(kMovingSize * std::sqrt(quantile(areas, 0.5)), 1e-3);
-  set.moving_speed = std::max(kMovingShare * quantile(speeds, 0.95), floor);
-  std::erase_if(speeds, [&](double s) { return s <= set.moving_speed; });
-  set.v0 = kFadeShare * (speeds.empty() ? floor : quantile(speeds, 0.5));
+  const SpeedScale scale = measure_speeds(std::move(speeds), std::move(areas));
+  set.moving_speed = scale.moving;
+  set.v0 = kFadeShare * (scale.usual > 0 ? scale.usual : scale.moving);
 }
 
 // Side of a cell: the grid, centred at the anchor, holds the largest sprite.
@@ -183,6 +181,16 @@ double angle_between(double ax, double ay, double bx, double by) noexcept {
   return heading_difference(angle_of(ax, ay), angle_of(bx, by));
 }
 
+SpeedScale measure_speeds(std::vector<double> speeds, std::vector<double> areas) {
+  SpeedScale scale;
+  if (speeds.empty()) return scale;
+  const double floor = std::max(kMovingSize * std::sqrt(quantile(areas, 0.5)), 1e-3);
+  scale.moving = std::max(kMovingShare * quantile(speeds, 0.95), floor);
+  std::erase_if(speeds, [&](double s) { return s <= scale.moving; });
+  if (!speeds.empty()) scale.usual = quantile(speeds, 0.5);
+  return scale;
+}
+
 FeatureSet make_feature_set(std::vector<SampleRow> rows, double fps, int grid,
                             const std::function<Image(int)>& pictures) {
   assert(grid >= 16 && grid <= 64 && grid % kBlock == 0);
@@ -195,7 +203,7 @@ FeatureSet make_feature_set(std::vector<SampleRow> rows, double fps, int grid,
   for (std::size_t i = 0; i < set.rows.size(); ++i) {
     set.samples.push_back(make_sample(set.rows[i], pictures(static_cast<int>(i)), set.cell, grid));
   }
-  measure_speeds(set);
+  set_speeds(set);
   return set;
 }
 

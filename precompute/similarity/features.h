@@ -62,16 +62,22 @@ struct FeatureSample {
 struct FeatureSet {
   int grid = kDefaultGrid;  ///< cells a side
   double cell = 1;          ///< film pixels per cell, from the largest sprite
-  double moving_speed = 0;  ///< px/s: a sample faster than this moves
+  double moving_speed = 1;  ///< px/s, > 0: a sample faster than this moves
   double v0 = 1;            ///< px/s, > 0: below this speed the angle fades
   double fps = 30;
   std::vector<SampleRow> rows;
   std::vector<FeatureSample> samples;  ///< (N), same numbering
 };
 
-/// Moving: faster than a quarter of the film's 95th percentile of speed, and than a quarter of the
-/// subject's size (root of the median area) a second. v0 = 0.35 x the median moving speed; where
-/// nothing moves, 0.35 x that quarter of the size.
+/// What counts as moving, and how fast the subject usually moves, px/s.
+struct SpeedScale {
+  double moving = 1;  ///< a quarter of the 95th percentile of speed, but at least a quarter of the
+                      ///< subject's size (root of the median area) a second; > 0
+  double usual = 0;   ///< median speed of what is faster than that; 0 if nothing is
+};
+SpeedScale measure_speeds(std::vector<double> speeds, std::vector<double> areas);
+
+/// v0 = 0.35 x the usual speed; where nothing moves, 0.35 x the speed that would count as moving.
 /// `pictures(i)` hands out the straight-alpha picture of sample i, in ascending order, once each.
 /// `grid`: a multiple of kBlock, 16..64.
 FeatureSet make_feature_set(std::vector<SampleRow> rows, double fps, int grid,

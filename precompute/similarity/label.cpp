@@ -11,25 +11,14 @@
 #include <set>
 #include <utility>
 
+#include "similarity/random.h"
+
 namespace vsprite {
 namespace {
 
 constexpr int kNear = 15;  // samples; closer than this is neither sure nor needed
 constexpr double kRepeatShare =
     0.75;  // a random pair nearer than this share of neighbours: a repeat
-
-// SplitMix64 (Steele, Lea, Flood 2014).
-struct Random {
-  std::uint64_t state;
-  std::uint64_t next() noexcept {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15u);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-  }
-  // Uniform in [0, bound); the bias below 2^-40 for any film does not matter.
-  std::size_t below(std::size_t bound) noexcept { return next() % bound; }
-};
 
 struct Pair {
   int i = 0, j = 0;

@@ -4,7 +4,8 @@
 # The work folder and its stages, in the library, so that tests reach them without the program.
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash tomlplusplus)
+pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash)
+find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
 target_sources(vsprite_precompute PRIVATE
   tool/build_pack.cpp
   tool/files.cpp
