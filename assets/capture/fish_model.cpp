@@ -109,26 +109,64 @@ Spine::Frame Spine::at(float s) const {
           mix(a.side, b.side, t)};
 }
 
-/// Appends an (n + 1) x (m + 1) sheet of vertices and its triangles; `place(u, v)` in px, y up.
+/// Body coordinates in px to the film: the camera's tilt, its perspective, the fish's place.
+class Camera {
+ public:
+  explicit Camera(const FishPose& pose)
+      : x_(static_cast<float>(pose.x)), y_(static_cast<float>(pose.y)) {}
+  static Vec3 tilted(Vec3 p) {
+    static const float c = std::cos(kCameraTilt), s = std::sin(kCameraTilt);
+    return {p.x, c * p.y - s * p.z, c * p.z + s * p.y};
+  }
+  Vec3 project(Vec3 p) const {
+    const Vec3 q = tilted(p);
+    const float scale = 1 / (1 - q.z / kCameraDistance);
+    return {x_ + scale * q.x, y_ - scale * q.y, q.z};
+  }
+
+ private:
+  float x_, y_;
+};
+
+/// Appends sheets of (n + 1) x (m + 1) vertices and their triangles; `place(u, v)` in px, y up.
 class Builder {
  public:
-  Builder(const FishPose& pose, Mesh& mesh) : pose_(pose), mesh_(mesh) {}
+  Builder(const FishPose& pose, Mesh& mesh) : camera_(pose), mesh_(mesh) {}
 
   template <class Place>
   void sheet(int n, int m, Place place, Material material, int rays);
 
  private:
-  /// Normals from the neighbours on the sheet; then tilt, perspective and film coordinates.
+  /// Normals from the neighbours on the sheet, then film coordinates.
   void finish(std::size_t first, int n, int m, bool wraps);
 
-  FishPose pose_;
+  Camera camera_;
   Mesh& mesh_;
 };
 
-Vec3 tilted(Vec3 p) {
-  const float c = std::cos(kCameraTilt), s = std::sin(kCameraTilt);
-  return {p.x, c * p.y - s * p.z, c * p.z + s * p.y};
-}
+/// Takes the same sheets, but keeps only some of their points.
+class Outliner {
+ public:
+  Outliner(const FishPose& pose, std::vector<Vec3>& points) : camera_(pose), points_(points) {}
+
+  template <class Place>
+  void sheet(int n, int m, Place place, Material material, int) {
+    if (material == Material::Eye) return;
+    const int rows = material == Material::Body ? n / 4 : 4, columns = m / 2;
+    float u, v;
+    for (int i = 0; i <= rows; ++i) {
+      for (int j = 0; j <= columns; ++j) {
+        points_.push_back(
+            camera_.project(place(static_cast<float>(i) / static_cast<float>(rows),
+                                  static_cast<float>(j) / static_cast<float>(columns), u, v)));
+      }
+    }
+  }
+
+ private:
+  Camera camera_;
+  std::vector<Vec3>& points_;
+};
 
 void Builder::finish(std::size_t first, int n, int m, bool wraps) {
   const auto index = [&](int i, int j) {
@@ -145,17 +183,14 @@ void Builder::finish(std::size_t first, int n, int m, bool wraps) {
       const Vec3 along = place(std::min(i + 1, n), j) - place(std::max(i - 1, 0), j);
       const Vec3 across = place(i, after) - place(i, before);
       Vertex& vertex = mesh_.vertices[index(i, j)];
-      vertex.normal = tilted(normalized(cross(along, across)));
-      vertex.tangent = tilted(normalized(along));
+      vertex.normal = Camera::tilted(normalized(cross(along, across)));
+      vertex.tangent = Camera::tilted(normalized(along));
     }
   }
   for (std::size_t k = first; k < mesh_.vertices.size(); ++k) {
     Vertex& p = mesh_.vertices[k];
-    const Vec3 q = tilted({p.x, p.y, p.z});
-    const float scale = 1 / (1 - q.z / kCameraDistance);
-    p.x = static_cast<float>(pose_.x) + scale * q.x;
-    p.y = static_cast<float>(pose_.y) - scale * q.y;
-    p.z = q.z;
+    const Vec3 q = camera_.project({p.x, p.y, p.z});
+    p.x = q.x, p.y = q.y, p.z = q.z;
   }
 }
 
@@ -184,7 +219,8 @@ void Builder::sheet(int n, int m, Place place, Material material, int rays) {
   finish(first, n, m, material != Material::Fin);
 }
 
-void add_body(const Spine& spine, Builder& builder) {
+template <class Sheets>
+void add_body(const Spine& spine, Sheets& builder) {
   builder.sheet(
       72, 40,
       [&](float along, float around, float& u, float& v) {
@@ -200,7 +236,8 @@ void add_body(const Spine& spine, Builder& builder) {
       Material::Body, 0);
 }
 
-void add_eye(const Spine& spine, Builder& builder, float side) {
+template <class Sheets>
+void add_eye(const Spine& spine, Sheets& builder, float side) {
   constexpr float s = 0.118f, high = 0.026f, radius = 0.040f;
   const Spine::Frame f = spine.at(s);
   const Vec3 centre = spine.point(s, high, side * (width(s) * 0.93f - 0.010f));
@@ -224,7 +261,8 @@ float beat(const FishPose& pose) {
   return 2 * kPi * static_cast<float>(pose.tail_phase - std::floor(pose.tail_phase));
 }
 
-void add_tail_fin(const Spine& spine, const FishPose& pose, Builder& builder) {
+template <class Sheets>
+void add_tail_fin(const Spine& spine, const FishPose& pose, Sheets& builder) {
   const float phase = beat(pose),
               amplitude = 0.35f + 0.65f * static_cast<float>(pose.tail_amplitude);
   const float spread = 0.80f - 0.10f * static_cast<float>(pose.tail_amplitude) +
@@ -252,7 +290,8 @@ void add_tail_fin(const Spine& spine, const FishPose& pose, Builder& builder) {
       Material::Fin, 19);
 }
 
-void add_dorsal_fin(const Spine& spine, const FishPose& pose, Builder& builder) {
+template <class Sheets>
+void add_dorsal_fin(const Spine& spine, const FishPose& pose, Sheets& builder) {
   const float phase = beat(pose), fast = 1 - static_cast<float>(pose.hover);
   builder.sheet(
       8, 28,
@@ -272,7 +311,8 @@ void add_dorsal_fin(const Spine& spine, const FishPose& pose, Builder& builder) 
       Material::Fin, 15);
 }
 
-void add_anal_fin(const Spine& spine, const FishPose& pose, Builder& builder) {
+template <class Sheets>
+void add_anal_fin(const Spine& spine, const FishPose& pose, Sheets& builder) {
   const float phase = beat(pose);
   builder.sheet(
       8, 12,
@@ -289,7 +329,8 @@ void add_anal_fin(const Spine& spine, const FishPose& pose, Builder& builder) {
       Material::Fin, 7);
 }
 
-void add_pelvic_fin(const Spine& spine, const FishPose& pose, Builder& builder, float side) {
+template <class Sheets>
+void add_pelvic_fin(const Spine& spine, const FishPose& pose, Sheets& builder, float side) {
   const float phase = beat(pose), hover = static_cast<float>(pose.hover);
   const float splay = 0.34f + 0.30f * hover + 0.16f * std::sin(phase + 0.6f * side);
   builder.sheet(
@@ -307,7 +348,8 @@ void add_pelvic_fin(const Spine& spine, const FishPose& pose, Builder& builder, 
       Material::Fin, 7);
 }
 
-void add_pectoral_fin(const Spine& spine, const FishPose& pose, Builder& builder, float side) {
+template <class Sheets>
+void add_pectoral_fin(const Spine& spine, const FishPose& pose, Sheets& builder, float side) {
   const float phase = beat(pose), hover = static_cast<float>(pose.hover);
   const float swing =
       0.42f + 0.40f * hover + (0.16f + 0.42f * hover) * std::sin(phase + 0.9f * side);
@@ -317,7 +359,7 @@ void add_pectoral_fin(const Spine& spine, const FishPose& pose, Builder& builder
         u = u_in;
         v = across;
         const float angle = 0.05f + 0.95f * across;
-        const float length = 0.215f * (0.60f + 0.40f * std::sin(kPi * (0.1f + 0.85f * across)));
+        const float length = 0.245f * (0.52f + 0.48f * std::sin(kPi * (0.1f + 0.85f * across)));
         const float bow = swing * (0.75f + 0.35f * u) - 0.25f * across * hover;
         const float out = side * (0.105f + length * u * std::sin(bow));
         const float r = length * u * std::cos(bow);
@@ -327,14 +369,9 @@ void add_pectoral_fin(const Spine& spine, const FishPose& pose, Builder& builder
       Material::Fin, 8);
 }
 
-}  // namespace
-
-void build_fish(const FishPose& pose, Mesh& mesh) {
-  mesh.vertices.clear();
-  mesh.opaque.clear();
-  mesh.fins.clear();
+template <class Sheets>
+void add_fish(const FishPose& pose, Sheets& builder) {
   const Spine spine(pose);
-  Builder builder(pose, mesh);
   add_body(spine, builder);
   for (const float side : {-1.0f, 1.0f}) add_eye(spine, builder, side);
   add_tail_fin(spine, pose, builder);
@@ -344,6 +381,22 @@ void build_fish(const FishPose& pose, Mesh& mesh) {
     add_pelvic_fin(spine, pose, builder, side);
     add_pectoral_fin(spine, pose, builder, side);
   }
+}
+
+}  // namespace
+
+void outline_fish(const FishPose& pose, std::vector<Vec3>& points) {
+  points.clear();
+  Outliner outliner(pose, points);
+  add_fish(pose, outliner);
+}
+
+void build_fish(const FishPose& pose, Mesh& mesh) {
+  mesh.vertices.clear();
+  mesh.opaque.clear();
+  mesh.fins.clear();
+  Builder builder(pose, mesh);
+  add_fish(pose, builder);
   const auto depth = [&](const Triangle& t) {
     return mesh.vertices[t.corner[0]].z + mesh.vertices[t.corner[1]].z +
            mesh.vertices[t.corner[2]].z;

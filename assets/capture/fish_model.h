@@ -44,6 +44,10 @@ inline constexpr float kCentre = 0.45f;    ///< where the body's centre lies alo
 /// Replaces the content of `mesh`.
 void build_fish(const FishPose& pose, Mesh& mesh);
 
+/// The same fish as a few hundred points of its surface in film px, z towards the camera: within a
+/// pixel of its extent, at a twentieth of the price.
+void outline_fish(const FishPose& pose, std::vector<Vec3>& points);
+
 /// The pose `t` of the way from a to b (angles are unwrapped).
 FishPose between(const FishPose& a, const FishPose& b, double t);
 

@@ -63,19 +63,13 @@ struct GoldfishFilm::Impl {
   Surroundings around;
   Skin skin;
 
-  /// The fish at the moments of a frame's exposure, which is centred on the frame's time.
-  std::vector<Mesh> exposure(int frame) const {
-    std::vector<Mesh> moments(kMoments);
-    const auto at = [&](int k) -> const FishPose& {
-      return poses[static_cast<std::size_t>(std::clamp(k, 0, static_cast<int>(poses.size()) - 1))];
+  /// The fish at a moment of a frame's exposure, which is centred on the frame's time.
+  FishPose moment(int frame, int k) const {
+    const auto at = [&](int f) -> const FishPose& {
+      return poses[static_cast<std::size_t>(std::clamp(f, 0, static_cast<int>(poses.size()) - 1))];
     };
-    for (int k = 0; k < kMoments; ++k) {
-      const double t = kShutter * ((k + 0.5) / kMoments - 0.5);
-      const FishPose pose =
-          t < 0 ? between(at(frame), at(frame - 1), -t) : between(at(frame), at(frame + 1), t);
-      build_fish(pose, moments[static_cast<std::size_t>(k)]);
-    }
-    return moments;
+    const double t = kShutter * ((k + 0.5) / kMoments - 0.5);
+    return t < 0 ? between(at(frame), at(frame - 1), -t) : between(at(frame), at(frame + 1), t);
   }
 };
 
@@ -98,10 +92,12 @@ const FishPose& GoldfishFilm::pose(int frame) const noexcept {
 
 FishBounds GoldfishFilm::bounds(int frame) const {
   FishBounds b{1e9, 1e9, -1e9, -1e9, false, false};
-  for (const Mesh& mesh : impl_->exposure(frame)) {
-    for (const Vertex& v : mesh.vertices) {
-      b.left = std::min<double>(b.left, v.x), b.right = std::max<double>(b.right, v.x);
-      b.top = std::min<double>(b.top, v.y), b.bottom = std::max<double>(b.bottom, v.y);
+  std::vector<Vec3> points;
+  for (const int k : {0, kMoments - 1}) {
+    outline_fish(impl_->moment(frame, k), points);
+    for (const Vec3& p : points) {
+      b.left = std::min<double>(b.left, p.x - 1), b.right = std::max<double>(b.right, p.x + 1);
+      b.top = std::min<double>(b.top, p.y - 1), b.bottom = std::max<double>(b.bottom, p.y + 1);
     }
   }
   const bool inside = b.left > 0 && b.top > 0 && b.right < width() && b.bottom < height();
@@ -127,7 +123,11 @@ void GoldfishFilm::render(int frame, TruthFrame& out) const {
   if (!pose(frame).away) {
     Surroundings around = impl_->around;
     around.light = light;
-    rasterize(impl_->exposure(frame), impl_->skin, around, width(), height(), fish);
+    std::vector<Mesh> moments(kMoments);
+    for (int k = 0; k < kMoments; ++k) {
+      build_fish(impl_->moment(frame, k), moments[static_cast<std::size_t>(k)]);
+    }
+    rasterize(moments, impl_->skin, around, width(), height(), fish);
     composite(fish, width(), linear);
   }
   copy_truth(fish, out);

@@ -70,7 +70,7 @@ class GoldfishFilm {
 
   /// Pre: 0 <= frame < frame_count(), here and below. Free.
   const FishPose& pose(int frame) const noexcept;
-  /// About a millisecond.
+  /// A fraction of a millisecond; generous by a pixel.
   FishBounds bounds(int frame) const;
   /// About a tenth of a second; reuses the memory of `out`. Any number of threads.
   void render(int frame, TruthFrame& out) const;

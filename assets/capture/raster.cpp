@@ -12,7 +12,7 @@
 namespace vsprite::capture {
 namespace {
 
-constexpr int kGrid = 3;                    // samples a pixel and side
+constexpr int kGrid = 2;                    // samples a pixel and side
 constexpr Vec3 kKey{0, 0.80f, 0.60f};       // towards the light; neither left nor right
 constexpr Vec3 kHalf{0, 0.4472f, 0.8944f};  // between that and the camera
 
@@ -71,11 +71,12 @@ class Painter {
     const SkinPoint p = skin_.at(at.u, at.v);
     const Vec3 n0 = normalized(at.normal);
     // `across` runs from back to belly on both flanks.
-    Vec3 across = normalized(cross(n0, at.tangent));
+    Vec3 across = cross(n0, at.tangent);
     if (across.y > 0) across = -1.0f * across;
     const Vec3 n = normalized(n0 + p.bump_along * at.tangent + p.bump_across * across);
     const float shine = power32(dot(n, kHalf)) * 0.42f * p.gloss;
-    const float sheen = std::pow(std::max(0.0f, dot(n, kHalf)), 6.0f) * 0.09f * p.gloss;
+    const float glow = std::max(0.0f, dot(n, kHalf)), glow2 = glow * glow;
+    const float sheen = glow2 * glow2 * glow2 * 0.09f * p.gloss;
     return opaque(p.albedo * irradiance(n, around_.light) +
                   around_.light * shine * Vec3{1, 0.97f, 0.9f} +
                   around_.light * sheen * Vec3{1, 0.80f, 0.45f} + spill(n0, around_));
@@ -148,6 +149,10 @@ class Canvas {
 void Canvas::draw(const Mesh& mesh, const Triangle& t, const Painter& painter, Vec2 shift) {
   const std::array<const Vertex*, 3> p = {&mesh.vertices[t.corner[0]], &mesh.vertices[t.corner[1]],
                                           &mesh.vertices[t.corner[2]]};
+  const bool solid = t.material != Material::Fin;
+  if (solid && p[0]->normal.z < -0.25f && p[1]->normal.z < -0.25f && p[2]->normal.z < -0.25f) {
+    return;  // the far flank is hidden by the near one
+  }
   // Grid units: sample (i, j) lies at the whole numbers.
   std::array<float, 3> x, y;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -156,18 +161,18 @@ void Canvas::draw(const Mesh& mesh, const Triangle& t, const Painter& painter, V
   }
   const float area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
   if (std::abs(area) < 1e-6f) return;
+  const float inverse = 1 / area;
   const int columns = box_.width * kGrid, rows = box_.height * kGrid;
   const int left = std::max(0, static_cast<int>(std::ceil(std::min({x[0], x[1], x[2]}))));
   const int right =
       std::min(columns - 1, static_cast<int>(std::floor(std::max({x[0], x[1], x[2]}))));
   const int above = std::max(0, static_cast<int>(std::ceil(std::min({y[0], y[1], y[2]}))));
   const int below = std::min(rows - 1, static_cast<int>(std::floor(std::max({y[0], y[1], y[2]}))));
-  const bool solid = t.material != Material::Fin;
   for (int j = above; j <= below; ++j) {
     const auto sy = static_cast<float>(j);
     for (int i = left; i <= right; ++i) {
       const auto sx = static_cast<float>(i);
-      const float w0 = ((x[1] - sx) * (y[2] - sy) - (x[2] - sx) * (y[1] - sy)) / area;
+      const float w0 = ((x[1] - sx) * (y[2] - sy) - (x[2] - sx) * (y[1] - sy)) * inverse;
       const float w1 = ((x[2] - sx) * (y[0] - sy) - (x[0] - sx) * (y[2] - sy)) / area;
       const float w2 = 1 - w0 - w1;
       if (w0 < 0 || w1 < 0 || w2 < 0) continue;
