@@ -248,12 +248,11 @@ std::vector<Plant> make_plants() {
   // clang-format off
   return {
       // kind, foot, height, depth, spread, count, base, tip, seed
-      {K::Ribbons, {440, 574}, 300, 0.85f, 66, 13, dark, grass, 11},
+      {K::Ribbons, {545, 574}, 290, 0.85f, 44, 11, dark, grass, 11},
       {K::Ribbons, {900, 572}, 360, 0.85f, 74, 15, dark, grass, 12},
       {K::Stems, {715, 572}, 120, 0.90f, 60, 7, dark, grass, 13},
-      {K::Stems, {300, 572}, 190, 0.80f, 70, 7, dark, olive, 10},
       {K::Ribbons, {1010, 584}, 440, 0.48f, 50, 14, dark, lime, 14},
-      {K::Stems, {560, 586}, 104, 0.55f, 56, 7, dark, olive, 15},
+      {K::Stems, {612, 586}, 104, 0.55f, 50, 7, dark, olive, 15},
       {K::Ribbons, {84, 590}, 450, 0.40f, 74, 18, dark, grass, 16},
       {K::Stems, {1148, 598}, 260, 0.30f, 62, 9, wine_dark, wine, 17},
       {K::Ribbons, {1244, 610}, 500, 0.22f, 40, 13, dark, lime, 18},
