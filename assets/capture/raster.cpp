@@ -12,7 +12,7 @@
 namespace vsprite::capture {
 namespace {
 
-constexpr int kGrid = 3;                    // samples a pixel and side
+constexpr int kGrid = 2;                    // samples a pixel and side
 constexpr Vec3 kKey{0, 0.80f, 0.60f};       // towards the light; neither left nor right
 constexpr Vec3 kHalf{0, 0.4472f, 0.8944f};  // between that and the camera
 
@@ -71,7 +71,7 @@ class Painter {
     const SkinPoint p = skin_.at(at.u, at.v);
     const Vec3 n0 = normalized(at.normal);
     // `across` runs from back to belly on both flanks.
-    Vec3 across = normalized(cross(n0, at.tangent));
+    Vec3 across = cross(n0, at.tangent);
     if (across.y > 0) across = -1.0f * across;
     const Vec3 n = normalized(n0 + p.bump_along * at.tangent + p.bump_across * across);
     const float shine = power32(dot(n, kHalf)) * 0.42f * p.gloss;

@@ -3,7 +3,7 @@
 //
 // capture/raster.h - triangles to coverage and colour, averaged over pixel and shutter.
 //
-// Each of the shutter's moments is drawn with 3 x 3 samples a pixel, on grids shifted against one
+// Each of the shutter's moments is drawn with 2 x 2 samples a pixel, on grids shifted against one
 // another. The body is drawn with a depth buffer, then the fins over it from back to front.
 #pragma once
 
