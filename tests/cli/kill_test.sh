@@ -21,7 +21,7 @@ for ((k = 0; k < kills; ++k)); do
   call=${calls_of[RANDOM % ${#calls_of[@]}]}
   at=$((RANDOM % $(most $call) + 1))
   rm -rf c.vsp c.work
-  strace -f -qq -o /dev/null -e inject=$call:signal=KILL:when=$at "$BIN/vsprite" build c.mp4 -o c.vsp >/dev/null 2>&1
+  { strace -f -qq -o /dev/null -e inject=$call:signal=KILL:when=$at "$BIN/vsprite" build c.mp4 -o c.vsp; } >/dev/null 2>&1
   [ $? = 137 ] && struck=$((struck + 1))
   expect 0 vsprite build c.mp4 -o c.vsp
   [ "$(sum c.vsp)" = "$good" ] || fail "killed at $call $at: the rerun's pack differs"
