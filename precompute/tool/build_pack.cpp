@@ -169,7 +169,8 @@ std::string unserved_reason(const SpriteData& data, const DirectionReport& repor
     return frames(toward) +
            " that way, but no smooth jump leads to them and back: film more ways in and out";
   return frames(kept) +
-         " that way, too few to go on for long: film more of it, with turns into it and out of it";
+         " that way, but no run of them keeps to it: film more of it, with turns into it and out "
+         "of it";
 }
 
 Result<Json> write_pack(StageRun& run) {

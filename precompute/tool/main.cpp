@@ -23,7 +23,10 @@ using namespace vsprite;
 
 /// Every file appears by renaming, so that stopping anywhere keeps what is finished: the process
 /// may end at once. Only calls that are allowed in a handler.
+pid_t the_tool = 0;
+
 void on_interrupt(int) {
+  if (::getpid() != the_tool) ::_exit(130);  // a decoder child goes quietly
   constexpr char message[] =
       "\nvsprite: interrupted: finished work is kept, the same command goes on from there\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message, sizeof message - 1);
@@ -88,6 +91,7 @@ int run(int count, char** words) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  the_tool = ::getpid();
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   const int code = run(argc - 1, argv + 1);

@@ -106,7 +106,8 @@ Result<Json> train_classifier(StageRun& run) {
   config.folds = run.settings.folds;
   config.false_accept_cost = run.settings.false_accept_cost;
   const auto training = train(set, labels, config);
-  if (!training) return training.error();
+  if (!training)
+    return Error{training.error().code, run.project.folder() + ": " + training.error().message};
   if (auto wrote = write_file(run.project.path("classifier.toml"), format_classifier(*training));
       !wrote)
     return wrote.error();

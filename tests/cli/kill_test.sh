@@ -19,7 +19,7 @@ struck=0
 for ((k = 0; k < kills; ++k)); do
   calls_of=(write fsync rename fsync rename unlink mkdir)
   call=${calls_of[RANDOM % ${#calls_of[@]}]}
-  at=$((RANDOM % $(most $call) + 1))
+  at=$((RANDOM % ($(most $call) / 2 + 1) + 1))  # several threads share the calls
   rm -rf c.vsp c.work
   { strace -f -qq -o /dev/null -e inject=$call:signal=KILL:when=$at "$BIN/vsprite" build c.mp4 -o c.vsp; } >/dev/null 2>&1
   [ $? = 137 ] && struck=$((struck + 1))

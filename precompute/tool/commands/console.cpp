@@ -105,7 +105,9 @@ void Console::show_progress(double fraction) {
     const Json line = {{"stage", stage_}, {"fraction", fraction}, {"eta_seconds", left}};
     std::fprintf(stderr, "%s\n", line.dump().c_str());
   } else if (mode_ == Mode::Lines) {
-    if (percent > 0) std::fprintf(stderr, "%s: %d %%\n", stage_.c_str(), percent / 10 * 10);
+    // A line for every tenth of a stage that is over in a moment helps nobody.
+    if (percent > 0 && spent > 2)
+      std::fprintf(stderr, "%s: %d %%\n", stage_.c_str(), percent / 10 * 10);
   } else {
     const int full = percent * kBarWidth / 100;
     std::string bar(static_cast<std::size_t>(full), '=');

@@ -261,8 +261,12 @@ Result<int> run_doctor(const Settings& settings, Console& console) {
     list.push_back(
         {{"state", finding.state}, {"message", finding.message}, {"remedy", finding.remedy}});
   }
-  if (pack) next = "vsprite play " + shell_word(operand);
-  if (folder || operand.empty()) next = "vsprite build FILM";
+  const std::string made =
+      find_pack_path(find_work_folder(settings.work, operand, {}), operand, {});
+  if (broken || (operand.empty() && settings.work.empty()))
+    next = pack || folder || operand.empty() ? "vsprite build FILM" : next;
+  else if (fs::exists(made, error))
+    next = "vsprite play " + shell_word(made);
   console.text(text);
   console.document({{"ok", !broken}, {"findings", list}});
   console.next(next);
