@@ -42,11 +42,21 @@ unsigned quantised(float value, float most) {
   return static_cast<unsigned>(std::clamp(value, 0.0f, 1.0f) * most + 0.5f);
 }
 
+// Linear 0..1 -> encoded 0..255 with its fraction, between the two codes that enclose it.
+float encoded_from_linear(float linear) {
+  const float l = std::clamp(linear, 0.0f, 1.0f) * 65535.0f;
+  const auto near = srgb_from_linear(static_cast<std::uint16_t>(l));
+  const auto code = static_cast<std::uint8_t>(linear_from_srgb(near) > l ? near - 1 : near);
+  if (code == 255) return 255;
+  const auto below = static_cast<float>(linear_from_srgb(code));
+  const auto above = static_cast<float>(linear_from_srgb(static_cast<std::uint8_t>(code + 1)));
+  return static_cast<float>(code) + (l - below) / (above - below);
+}
+
 std::uint8_t store_channel(float colour, float a, unsigned alpha, Blend blend) {
-  if (blend == Blend::Encoded)
-    return static_cast<std::uint8_t>(std::min(quantised(colour, 255), alpha));
-  const auto linear = static_cast<std::uint16_t>(quantised(colour / a, 65535));
-  return static_cast<std::uint8_t>((srgb_from_linear(linear) * alpha + 127) / 255);
+  const float encoded =
+      blend == Blend::Encoded ? colour : encoded_from_linear(colour / a) / 255.0f * a;
+  return static_cast<std::uint8_t>(std::min(quantised(encoded, 255), alpha));
 }
 
 void store(std::uint8_t* pixel, const Light& light, Blend blend) {

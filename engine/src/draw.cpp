@@ -114,7 +114,7 @@ struct Renderer::Impl {
   LightTable light;
   detail::Atlas atlas;
   std::vector<gl::Id> pages;
-  Program sprite_program, shape_program, flat_program, encode_program;
+  Program sprite_program, shape_program, flat_program, fit_program, exact_program;
   gl::Stream sprite_stream, shape_stream, flat_stream, empty_stream;
   std::vector<Program> effects;
   Effect layer_effect;
@@ -156,13 +156,14 @@ struct Renderer::Impl {
     return {(p.x - camera.origin.x) * camera.scale + camera.offset.x,
             (p.y - camera.origin.y) * camera.scale + camera.offset.y};
   }
-  void encode(bool straight, bool flip);
+  void encode(bool straight, bool flip, bool exact);
   void draw_line_of_text(std::string_view text, Vec2 at, float size, const TextStyle& style);
 };
 
 Renderer::Impl::~Impl() {
   for (gl::Id id : pages) gl::free_texture(id);
-  for (Program* p : {&sprite_program, &shape_program, &flat_program, &encode_program}) {
+  for (Program* p :
+       {&sprite_program, &shape_program, &flat_program, &fit_program, &exact_program}) {
     if (p->id != 0) gl::free_program(p->id);
   }
   for (Program& effect : effects) gl::free_program(effect.id);
@@ -176,9 +177,9 @@ Renderer::Impl::~Impl() {
 
 Result<void> Renderer::Impl::set_up() {
   const auto build = [&](Program& program, std::string_view name, std::string_view vert,
-                         std::string_view frag) -> Result<void> {
+                         std::string_view frag, std::string_view prelude = "") -> Result<void> {
     program.name = name;
-    Result<gl::Id> id = gl::make_program(device, name, vert, "", frag);
+    Result<gl::Id> id = gl::make_program(device, name, vert, prelude, frag);
     if (!id) return std::move(id).error();
     program.id = *id;
     return {};
@@ -186,7 +187,12 @@ Result<void> Renderer::Impl::set_up() {
   if (auto r = build(sprite_program, "sprite", glsl::sprite_vert, glsl::sprite_frag); !r) return r;
   if (auto r = build(shape_program, "shape", glsl::shape_vert, glsl::shape_frag); !r) return r;
   if (auto r = build(flat_program, "flat", glsl::flat_vert, glsl::flat_frag); !r) return r;
-  if (auto r = build(encode_program, "encode", glsl::encode_vert, glsl::encode_frag); !r) return r;
+  if (auto r = build(fit_program, "encode", glsl::encode_vert, glsl::encode_frag); !r) return r;
+  if (auto r =
+          build(exact_program, "encode", glsl::encode_vert, glsl::encode_frag, "#define EXACT\n");
+      !r) {
+    return r;
+  }
   sprite_stream = gl::make_stream(5, true);
   shape_stream = gl::make_stream(4, true);
   flat_stream = gl::make_stream(2, false);
@@ -571,13 +577,16 @@ void Renderer::draw_layer(Layer layer, const EffectPass& pass) {
   run_effect(Effect{0}, {&picture, 1}, pass);
 }
 
-void Renderer::Impl::encode(bool straight, bool flip) {
-  gl::use(encode_program.id);
+void Renderer::Impl::encode(bool straight, bool flip, bool exact) {
+  Program& program = exact ? exact_program : fit_program;
+  gl::use(program.id);
   gl::bind(0, frame.main.texture);
-  gl::set_sampler(encode_program.location("frame"), 0);
-  encode_program.set("straight", {straight ? 1.0f : 0.0f});
-  encode_program.set("flip", {flip ? 1.0f : 0.0f});
-  encode_program.set("dither", {config.dither ? 1.0f : 0.0f});
+  gl::set_sampler(program.location("frame"), 0);
+  program.set("frame_size",
+              {static_cast<float>(frame.main.width), static_cast<float>(frame.main.height)});
+  program.set("straight", {straight ? 1.0f : 0.0f});
+  program.set("flip", {flip ? 1.0f : 0.0f});
+  program.set("dither", {config.dither ? 1.0f : 0.0f});
   gl::blend(BlendMode::Replace);
   gl::draw_rectangle(empty_stream);
 }
@@ -603,7 +612,7 @@ void Renderer::end_frame(int window_width, int window_height) {
   gl::draw_to_window(m.window_framebuffer,
                      {r.x, window_height - r.y - r.height, r.width, r.height});
   if (r.width != window_width || r.height != window_height) gl::clear(0, 0, 0, 1);
-  m.encode(false, true);
+  m.encode(false, true, r.width == width && r.height == height);
 }
 
 Vec2 Renderer::frame_from_window(Vec2 point) const noexcept {
@@ -630,7 +639,7 @@ Image Renderer::read_pixels() {
   image.rgba.resize(std::size_t(width) * std::size_t(height) * 4);
   const gl::Id before = gl::current_framebuffer();
   gl::draw_to_window(m.encoded.framebuffer, {0, 0, width, height});
-  m.encode(true, false);
+  m.encode(true, false, true);
   gl::read(m.encoded, image.rgba.data());
   if (m.target != nullptr) {
     gl::draw_to(m.device, m.target->main);

@@ -16,8 +16,6 @@ namespace vsprite {
 namespace detail {
 namespace {
 
-constexpr std::size_t kMostIssues = 1000;
-
 Error error_of(const ByteSource& source, const Finding& found) {
   // A message about the file itself begins with its name already.
   if (found.issue.code == "unreadable") return {found.error, found.issue.message};
@@ -70,11 +68,11 @@ bool is_premultiplied(const Image& image) {
   return true;
 }
 
-void verify_frames(const ByteSource& source, const PackContent& content,
+void verify_frames(const ByteSource& source, const PackContent& content, std::size_t most,
                    std::vector<PackIssue>& issues) {
   FrameCodec codec;
   Image image;
-  for (std::size_t i = 0; i < content.frames.size() && issues.size() < kMostIssues; ++i) {
+  for (std::size_t i = 0; i < content.frames.size() && issues.size() < most; ++i) {
     const FrameEntry& frame = content.frames[i];
     const Sample& sample = content.data.samples[i];
     if (sample.kept == 0) continue;
@@ -96,11 +94,6 @@ void verify_frames(const ByteSource& source, const PackContent& content,
   }
 }
 
-bool is_known(const std::string& name) {
-  constexpr std::array<std::string_view, 6> kRead{"META", "SAMP", "TRAN", "CTRL", "FIDX", "FRAM"};
-  return std::find(kRead.begin(), kRead.end(), name) != kRead.end();
-}
-
 }  // namespace
 
 Result<Sprite> load_pack_from(ByteSource source) {
@@ -119,22 +112,24 @@ Result<Sprite> load_pack_from(ByteSource source) {
   }
 }
 
-Result<std::vector<PackIssue>> verify_pack_from(ByteSource source) {
+Result<std::vector<PackIssue>> verify_pack_from(ByteSource source, std::size_t most) {
   try {
     PackContent content;
-    Check bad = read_header(source, content);
-    if (!bad) bad = read_content(source, content);
-    if (bad && bad->issue.code == "unreadable") return error_of(source, *bad);
     std::vector<PackIssue> issues;
-    if (bad) {
-      issues.push_back(bad->issue);
-      return issues;
+    if (Check bad = read_header(source, content)) {
+      if (bad->issue.code == "unreadable") return error_of(source, *bad);
+      return std::vector<PackIssue>{bad->issue};
     }
     verify_padding(source, content, issues);
-    for (const SectionEntry& entry : content.sections) {
-      if (entry.name == "FRAM" || !is_known(entry.name)) verify_sum(source, entry, issues);
+    for (const SectionEntry& entry : content.sections) verify_sum(source, entry, issues);
+    if (issues.size() >= most) return issues;
+    if (Check bad = read_content(source, content)) {
+      if (bad->issue.code == "unreadable") return error_of(source, *bad);
+      // A table whose sum is wrong has been reported already.
+      if (bad->issue.code != "section-sum") issues.push_back(bad->issue);
+      return issues;
     }
-    verify_frames(source, content, issues);
+    verify_frames(source, content, most, issues);
     return issues;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, source.name() + ": out of memory while verifying"};

@@ -5,6 +5,7 @@
 // share.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -84,9 +85,9 @@ struct PackContent {
 /// Reads and checks header, tables and indices: what load_pack relies on.
 Check read_header(const ByteSource& source, PackContent& content);
 Check read_content(const ByteSource& source, PackContent& content);
-/// The same from any source, and as verify_pack does.
+/// load_pack and verify_pack from any source; verifying stops after `most` issues.
 Result<Sprite> load_pack_from(ByteSource source);
-Result<std::vector<PackIssue>> verify_pack_from(ByteSource source);
+Result<std::vector<PackIssue>> verify_pack_from(ByteSource source, std::size_t most = 1000);
 
 /// zstd over rows from which the row above was subtracted; see PACK.md, "FRAM".
 class FrameCodec {
@@ -137,11 +138,11 @@ class Cursor {
   explicit Cursor(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
   template <class T>
   T get() noexcept {
-    std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) bits |= std::uint64_t{bytes_[i]} << (8 * i);
-    if constexpr (std::endian::native == std::endian::big) bits <<= 8 * (8 - sizeof(T));
     T value;
-    std::memcpy(&value, &bits, sizeof(T));
+    std::array<std::uint8_t, sizeof(T)> raw;
+    std::copy_n(bytes_.begin(), sizeof(T), raw.begin());
+    if constexpr (std::endian::native == std::endian::big) std::reverse(raw.begin(), raw.end());
+    std::memcpy(&value, raw.data(), sizeof(T));
     bytes_ = bytes_.subspan(sizeof(T));
     return value;
   }

@@ -71,33 +71,33 @@ Check check_meta(const SpriteData& data) {
 
 Check check_sample(const SpriteData& data, std::size_t i) {
   const Sample& s = data.samples[i];
-  const std::string what = "sample " + number(i) + ": ";
+  const auto bad = [i](std::string_view code, const std::string& found,
+                       ErrorCode error = ErrorCode::CorruptData) {
+    return finding(code, "SAMP", 0, "sample " + number(i) + ": " + found, error);
+  };
   const bool finite = std::isfinite(s.anchor.x) && std::isfinite(s.anchor.y) &&
                       std::isfinite(s.velocity.x) && std::isfinite(s.velocity.y) &&
                       std::isfinite(s.area) && std::isfinite(s.scale);
-  if (!finite)
-    return finding("sample-value", "SAMP", 0, what + "holds a number that is not finite");
+  if (!finite) return bad("sample-value", "holds a number that is not finite");
   if (s.area < 0 || s.scale <= 0) {
-    return finding("sample-range", "SAMP", 0, what + "area below 0 or scale not above 0");
+    return bad("sample-range", "area below 0 or scale not above 0");
   }
-  if (s.duration < 1) return finding("duration", "SAMP", 0, what + "duration 0, at least 1 is due");
+  if (s.duration < 1) return bad("duration", "duration 0, at least 1 is due");
   if (s.tag >= data.tags.size()) {
-    return finding("tag-index", "SAMP", 0,
-                   what + "tag " + number(s.tag) + " of " + number(data.tags.size()));
+    return bad("tag-index", "tag " + number(s.tag) + " of " + number(data.tags.size()));
   }
   if (s.mirror_of != kNoSample && s.mirror_of >= data.samples.size()) {
-    return finding(
-        "mirror-index", "SAMP", 0,
-        what + "mirror of sample " + number(s.mirror_of) + " of " + number(data.samples.size()));
+    return bad("mirror-index",
+               "mirror of sample " + number(s.mirror_of) + " of " + number(data.samples.size()));
   }
   if (s.kept > 1) {
-    return finding("kept-flag", "SAMP", 0, what + "kept is " + number(s.kept) + ", 0 or 1 is due");
+    return bad("kept-flag", "kept is " + number(s.kept) + ", 0 or 1 is due");
   }
   if (std::uint64_t{s.width} * s.height > kMaxPixels) {
-    return finding("picture-size", "SAMP", 0,
-                   what + "picture of " + number(s.width) + " x " + number(s.height) +
-                       " pixels, at most " + number(kMaxPixels) + " pixels are due",
-                   ErrorCode::LimitExceeded);
+    return bad("picture-size",
+               "picture of " + number(s.width) + " x " + number(s.height) + " pixels, at most " +
+                   number(kMaxPixels) + " pixels are due",
+               ErrorCode::LimitExceeded);
   }
   return {};
 }
@@ -186,22 +186,21 @@ Check check_next(const SpriteData& data, const ControlMode& mode, const std::str
   for (std::size_t k = 0; k < mode.next.size(); ++k) {
     const auto from = static_cast<std::uint32_t>(k % n);
     const std::uint32_t to = mode.next[k];
-    const std::string where = what + "table " + number(k / n) + ", sample " + number(from) + ": ";
+    const auto bad = [&](std::string_view code, const std::string& found) {
+      return finding(code, "CTRL", 0,
+                     what + "table " + number(k / n) + ", sample " + number(from) + ": " + found);
+    };
     if (data.samples[from].kept == 0) {
       if (to == kNoSample) continue;
-      return finding("next-unkept", "CTRL", 0, where + "was not kept but has a next");
+      return bad("next-unkept", "was not kept but has a next");
     }
-    if (to >= n) {
-      return finding("next-index", "CTRL", 0,
-                     where + "next is sample " + number(to) + " of " + number(n));
-    }
+    if (to >= n) return bad("next-index", "next is sample " + number(to) + " of " + number(n));
     if (data.samples[to].kept == 0) {
-      return finding("next-kept", "CTRL", 0,
-                     where + "next is sample " + number(to) + ", which was not kept");
+      return bad("next-kept", "next is sample " + number(to) + ", which was not kept");
     }
     if (!is_natural(data, from, to) && !find_transition(data, from, to)) {
-      return finding("next-transition", "CTRL", 0,
-                     where + "next is sample " + number(to) + ", but there is no such transition");
+      return bad("next-transition",
+                 "next is sample " + number(to) + ", but there is no such transition");
     }
   }
   return {};

@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// Least recently used pictures go first. A picture that cannot be decoded is remembered as damaged,
-// so that it is tried once only.
+// Least recently used pictures go first. A picture whose bytes are damaged is remembered, so that
+// it is tried once only.
 #include "vsprite/stream.h"
 
 #include <list>
+#include <new>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace vsprite {
@@ -15,7 +17,6 @@ struct FrameCache::Impl {
   struct Entry {
     std::uint32_t sample = 0;
     Image image;
-    bool damaged = false;
   };
   using Entries = std::list<Entry>;  // the newest in front
 
@@ -24,30 +25,36 @@ struct FrameCache::Impl {
   FrameCacheStats stats;
   Entries entries;
   std::unordered_map<std::uint32_t, Entries::iterator> by_sample;
-  Image last_good;  // what stands in for a damaged picture
+  std::unordered_set<std::uint32_t> damaged;
 
-  Entry& find_or_decode(std::uint32_t sample);
+  bool bring_to_front(std::uint32_t sample);
+  bool decode_to_front(std::uint32_t sample);
   void drop_oldest();
 };
 
-FrameCache::Impl::Entry& FrameCache::Impl::find_or_decode(std::uint32_t sample) {
-  if (const auto found = by_sample.find(sample); found != by_sample.end()) {
-    ++stats.hits;
-    entries.splice(entries.begin(), entries, found->second);
-    return entries.front();
-  }
+bool FrameCache::Impl::bring_to_front(std::uint32_t sample) {
+  const auto found = by_sample.find(sample);
+  if (found == by_sample.end()) return false;
+  ++stats.hits;
+  entries.splice(entries.begin(), entries, found->second);
+  return true;
+}
+
+bool FrameCache::Impl::decode_to_front(std::uint32_t sample) {
+  if (damaged.contains(sample)) return false;
   ++stats.misses;
-  Entry entry;
-  entry.sample = sample;
-  if (!sprite.decode_frame(sample, entry.image)) {
-    entry.damaged = true;
-    entry.image = {};
+  Entries fresh(1);
+  fresh.front().sample = sample;
+  if (auto decoded = sprite.decode_frame(sample, fresh.front().image); !decoded) {
+    // Want of memory passes, damage does not.
+    if (decoded.error().code != ErrorCode::OutOfMemory) damaged.insert(sample);
+    return false;
   }
-  entries.push_front(std::move(entry));
-  by_sample[sample] = entries.begin();
-  stats.bytes += entries.front().image.rgba.size();
+  by_sample[sample] = fresh.begin();
+  stats.bytes += fresh.front().image.rgba.size();
+  entries.splice(entries.begin(), fresh);
   drop_oldest();
-  return entries.front();
+  return true;
 }
 
 void FrameCache::Impl::drop_oldest() {
@@ -63,13 +70,15 @@ FrameCache::FrameCache(const Sprite& sprite, std::size_t budget)
 
 FrameCache::~FrameCache() = default;
 
-ImageView FrameCache::frame(std::uint32_t sample) {
-  const Impl::Entry& entry = impl_->find_or_decode(sample);
-  if (entry.damaged) {
-    ++impl_->stats.damaged;
-    return impl_->last_good;
+ImageView FrameCache::frame(std::uint32_t sample) noexcept {
+  bool shown = false;
+  try {
+    shown = impl_->bring_to_front(sample) || impl_->decode_to_front(sample);
+  } catch (const std::bad_alloc&) {
+    // Drawing never fails: the last good picture stands in.
   }
-  return entry.image;
+  if (!shown) ++impl_->stats.damaged;
+  return impl_->entries.empty() ? ImageView() : ImageView(impl_->entries.front().image);
 }
 
 const FrameCacheStats& FrameCache::stats() const noexcept { return impl_->stats; }

@@ -239,7 +239,7 @@ std::string formatted(const char* format, double a, double b = 0) {
   return line.data();
 }
 
-void draw_overlay(Renderer& renderer, const Page& page, const Moment& moment, const HudState& state,
+void draw_overlay(Renderer& renderer, const Moment& moment, const HudState& state,
                   Quality quality) {
   const vsprite::Actor& actor = moment.world.fish[0].actor;
   const vsprite::SpriteData& data = moment.sprite.data();
@@ -289,7 +289,6 @@ void draw_overlay(Renderer& renderer, const Page& page, const Moment& moment, co
     renderer.draw_shape(
         vsprite::box({left + 16, line}, {left + 376, line + 1}, faded(kInk, 0.35f)));
   }
-  (void)page;
 }
 
 }  // namespace
@@ -329,7 +328,7 @@ void draw_hud(Renderer& renderer, const Moment& moment, const HudState& state, Q
   if (world.phase == Phase::Over) draw_end(renderer, page, moment, state);
   if (world.paused) draw_pause(renderer, page);
   if (state.muted) draw_speaker_off(renderer, page);
-  if (state.overlay) draw_overlay(renderer, page, moment, state, quality);
+  if (state.overlay) draw_overlay(renderer, moment, state, quality);
   renderer.set_camera({});
 }
 

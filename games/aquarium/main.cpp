@@ -213,11 +213,12 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "aquarium: error: %s\n", options.error().message.c_str());
     return vsprite::games::exit_code(options.error().code);
   }
-  for (const std::string_view word : options->rest)
-    if (word == "--help" || word == "-h")
-      std::atexit([] { std::fputs(aquarium::kOwnUsage, stdout); });
-  return vsprite::games::run(static_cast<int>(options->rest.size()), options->rest.data(),
-                             "aquarium", aquarium::find_bundled_pack(), [&](const auto& arguments) {
-                               return aquarium::play(arguments, *options);
-                             });
+  bool help = false;
+  const int code = vsprite::games::run(
+      static_cast<int>(options->rest.size()), options->rest.data(), "aquarium",
+      aquarium::find_bundled_pack(),
+      [&](const auto& arguments) { return aquarium::play(arguments, *options); });
+  for (const std::string_view word : options->rest) help = help || word == "--help" || word == "-h";
+  if (help && code == 0) std::fputs(aquarium::kOwnUsage, stdout);
+  return code;
 }

@@ -15,7 +15,7 @@ using vsprite::Vertex;
 
 namespace {
 
-constexpr std::size_t kMostNodes = 15;
+constexpr std::size_t kMostNodes = 12;
 
 /// A place on the middle line of a ribbon.
 struct Node {
@@ -65,7 +65,33 @@ std::array<Vertex, 5> across(const Ribbon& ribbon, std::size_t k, float feather)
           Vertex{at(node.half + feather), out_right}};
 }
 
+/// For stalks and grass of a few pixels: a bright middle between two faded edges.
+void append_thin(const Ribbon& ribbon, float feather, std::vector<Vertex>& out) {
+  const auto points = [&](std::size_t k) {
+    const Node& node = ribbon.nodes[k];
+    const Vec2 n = normal_at(ribbon, k);
+    const float way = node.half + 0.7f * feather;
+    Color left = node.left;
+    Color right = node.right;
+    left.a = right.a = 0;
+    return std::array<Vertex, 3>{Vertex{{node.at.x - n.x * way, node.at.y - n.y * way}, left},
+                                 Vertex{node.at, mix(node.left, node.right, 0.5f)},
+                                 Vertex{{node.at.x + n.x * way, node.at.y + n.y * way}, right}};
+  };
+  std::array<Vertex, 3> before = points(0);
+  for (std::size_t k = 1; k < ribbon.count; ++k) {
+    const std::array<Vertex, 3> here = points(k);
+    quad(out, before[0], before[1], here[0], here[1]);
+    quad(out, before[1], before[2], here[1], here[2]);
+    before = here;
+  }
+}
+
+/// Wide ribbons get a crisp body; those of a few pixels need no more than half the triangles.
 void append(const Ribbon& ribbon, float feather, std::vector<Vertex>& out) {
+  float widest = 0;
+  for (std::size_t k = 0; k < ribbon.count; ++k) widest = std::max(widest, ribbon.nodes[k].half);
+  if (widest < 2.5f * feather) return append_thin(ribbon, feather, out);
   std::array<Vertex, 5> before = across(ribbon, 0, feather);
   for (std::size_t k = 1; k < ribbon.count; ++k) {
     const std::array<Vertex, 5> here = across(ribbon, k, feather);
@@ -95,9 +121,9 @@ Color in_water(Color c, const Water& water, Vec2 at, float light) {
 
 /// A blade from `foot` upwards, `lean` to the side; widest at a third of its height.
 Ribbon make_blade(const Plant& plant, const Water& water, Vec2 foot, float height, float lean,
-                  float half, float phase) {
+                  float half, float phase, std::size_t nodes = kMostNodes) {
   Ribbon ribbon;
-  ribbon.count = kMostNodes;
+  ribbon.count = nodes;
   for (std::size_t k = 0; k < ribbon.count; ++k) {
     const float u = static_cast<float>(k) / static_cast<float>(ribbon.count - 1);
     Vec2 at{foot.x + lean * u * u, foot.y - height * u * (1 - 0.12f * u)};
@@ -116,7 +142,7 @@ Ribbon make_blade(const Plant& plant, const Water& water, Vec2 foot, float heigh
 void append_leaf(const Plant& plant, const Water& water, Vec2 root, Vec2 along, float half, float u,
                  std::vector<Vertex>& out) {
   Ribbon leaf;
-  leaf.count = 6;
+  leaf.count = 4;
   const Color c = mix(plant.base, plant.tip, u);
   const float length = std::sqrt(along.x * along.x + along.y * along.y);
   for (std::size_t k = 0; k < leaf.count; ++k) {
@@ -136,7 +162,7 @@ void grow_ribbons(const Plant& plant, const Water& water, Random dice, std::vect
                     plant.foot.y + dice.between(-5, 5)};
     const float height = plant.height * dice.between(0.55f, 1.0f);
     const float lean = dice.between(-0.22f, 0.22f) * plant.height;
-    const float half = plant.height * dice.between(0.014f, 0.021f) + 1.2f;
+    const float half = plant.height * dice.between(0.009f, 0.015f) + 1.2f;
     append(make_blade(plant, water, foot, height, lean, half, dice.between(0, 6.28f)),
            water.feather, out);
   }
@@ -149,9 +175,9 @@ void grow_stems(const Plant& plant, const Water& water, Random dice, std::vector
     const float height = plant.height * dice.between(0.6f, 1.0f);
     const float phase = dice.between(0, 6.28f);
     const float lean = dice.between(-0.15f, 0.15f) * plant.height;
-    const Ribbon stem = make_blade(plant, water, foot, height, lean, 1.6f, phase);
-    append(stem, water.feather, out);
-    const int pairs = std::max(5, static_cast<int>(height / 13));
+    const Ribbon stem = make_blade(plant, water, foot, height, lean, 1.6f, phase, 8);
+    append_thin(stem, water.feather, out);
+    const int pairs = std::max(5, static_cast<int>(height / 16));
     for (int p = 1; p <= pairs; ++p) {
       const float u = static_cast<float>(p) / static_cast<float>(pairs);
       const float place = u * static_cast<float>(stem.count - 1);
@@ -201,9 +227,9 @@ void grow_tuft(const Plant& plant, const Water& water, Random dice, std::vector<
     const float x = dice.between(-1, 1);
     const Vec2 foot{plant.foot.x + x * plant.spread, plant.foot.y + dice.between(-7, 7)};
     const float height = plant.height * dice.between(0.45f, 1.0f) * (1 - 0.5f * x * x);
-    append(make_blade(plant, water, foot, height, dice.between(-0.6f, 0.6f) * height, 2.0f,
-                      dice.between(0, 6.28f)),
-           water.feather, out);
+    append_thin(make_blade(plant, water, foot, height, dice.between(-0.6f, 0.6f) * height, 2.0f,
+                           dice.between(0, 6.28f), 6),
+                water.feather, out);
   }
 }
 
@@ -214,63 +240,36 @@ std::vector<Plant> make_plants() {
   const Color grass{0.075f, 0.260f, 0.035f, 1};
   const Color lime{0.200f, 0.430f, 0.060f, 1};
   const Color olive{0.110f, 0.200f, 0.030f, 1};
-  const Color wine{0.330f, 0.055f, 0.060f, 1};
+  const Color wine{0.420f, 0.060f, 0.050f, 1};
+  const Color wine_dark{0.060f, 0.040f, 0.015f, 1};
   const Color moss{0.030f, 0.080f, 0.012f, 1};
   using K = PlantKind;
+  const Color shade{0.004f, 0.018f, 0.005f, 1};
+  // clang-format off
   return {
       // kind, foot, height, depth, spread, count, base, tip, seed
-      {K::Ribbons, {455, 574}, 300, 0.95f, 46, 9, dark, grass, 11},
-      {K::Ribbons, {880, 572}, 350, 0.95f, 54, 11, dark, grass, 12},
-      {K::Stems, {705, 572}, 110, 1.00f, 60, 6, dark, grass, 13},
-      {K::Ribbons, {1010, 584}, 430, 0.55f, 42, 10, dark, lime, 14},
-      {K::Stems, {560, 586}, 96, 0.60f, 52, 6, dark, olive, 15},
-      {K::Ribbons, {88, 590}, 440, 0.48f, 66, 12, dark, grass, 16},
-      {K::Stems, {1150, 598}, 250, 0.36f, 64, 8, dark, wine, 17},
-      {K::Ribbons, {1248, 610}, 500, 0.26f, 34, 9, dark, lime, 18},
-      {K::Sword, {884, 618}, 140, 0.30f, 96, 9, moss, lime, 19},
-      {K::Stems, {18, 628}, 230, 0.20f, 40, 6, moss, grass, 20},
-      {K::Sword, {424, 640}, 96, 0.16f, 76, 9, moss, grass, 21},
-      {K::Tuft, {286, 694}, 46, 0.05f, 70, 34, moss, lime, 22},
-      {K::Tuft, {1010, 690}, 40, 0.05f, 60, 28, moss, lime, 23},
-      {K::Tuft, {700, 640}, 22, 0.28f, 50, 20, moss, grass, 24},
+      {K::Ribbons, {545, 574}, 290, 0.85f, 44, 11, dark, grass, 11},
+      {K::Ribbons, {900, 572}, 360, 0.85f, 74, 15, dark, grass, 12},
+      {K::Stems, {715, 572}, 120, 0.90f, 60, 7, dark, grass, 13},
+      {K::Ribbons, {1010, 584}, 440, 0.48f, 50, 14, dark, lime, 14},
+      {K::Stems, {612, 586}, 104, 0.55f, 50, 7, dark, olive, 15},
+      {K::Ribbons, {84, 590}, 450, 0.40f, 74, 18, dark, grass, 16},
+      {K::Stems, {1148, 598}, 260, 0.30f, 62, 9, wine_dark, wine, 17},
+      {K::Ribbons, {1244, 610}, 500, 0.22f, 40, 13, dark, lime, 18},
+      {K::Sword, {884, 618}, 140, 0.24f, 96, 11, moss, lime, 19},
+      {K::Stems, {22, 628}, 240, 0.16f, 44, 7, moss, grass, 20},
+      {K::Sword, {424, 642}, 100, 0.14f, 76, 11, moss, grass, 21},
+      {K::Tuft, {286, 694}, 50, 0.04f, 90, 44, moss, lime, 22},
+      {K::Tuft, {1010, 692}, 44, 0.04f, 80, 38, moss, lime, 23},
+      {K::Tuft, {700, 634}, 24, 0.26f, 60, 26, moss, grass, 24},
+      {K::Tuft, {560, 612}, 18, 0.40f, 40, 18, moss, grass, 29},
       // close to the glass: dark, in front of the fish
-      {K::Ribbons,
-       {-14, 770},
-       470,
-       -0.1f,
-       52,
-       7,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.020f, 0.075f, 0.014f, 1},
-       25},
-      {K::Sword,
-       {1266, 764},
-       270,
-       -0.1f,
-       150,
-       9,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.024f, 0.085f, 0.014f, 1},
-       26},
-      {K::Tuft,
-       {86, 744},
-       74,
-       -0.1f,
-       110,
-       30,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.030f, 0.095f, 0.014f, 1},
-       27},
-      {K::Tuft,
-       {1150, 744},
-       62,
-       -0.1f,
-       120,
-       30,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.030f, 0.095f, 0.014f, 1},
-       28},
+      {K::Ribbons, {-14, 770}, 470, -0.1f, 52, 8, shade, {0.020f, 0.075f, 0.014f, 1}, 25},
+      {K::Sword, {1266, 764}, 270, -0.1f, 150, 11, shade, {0.024f, 0.085f, 0.014f, 1}, 26},
+      {K::Tuft, {86, 748}, 78, -0.1f, 130, 40, shade, {0.030f, 0.095f, 0.014f, 1}, 27},
+      {K::Tuft, {1150, 748}, 66, -0.1f, 140, 40, shade, {0.030f, 0.095f, 0.014f, 1}, 28},
   };
+  // clang-format on
 }
 
 void grow_plant(const Plant& plant, float time, std::span<const Wake> wakes, float pixel,

@@ -35,8 +35,8 @@ struct Stone {
   std::array<float, 4> look;
 };
 constexpr std::array<Stone, 2> kStonesBehindWood{{
-    {1105, 596, 122, 112, {3, 0.45f, 0.24f, 1.2f}},
-    {200, 606, 134, 98, {1, 0.55f, 0.22f, 1.2f}},
+    {1105, 596, 122, 112, {3, 0.5f, 0.15f, 1.1f}},
+    {200, 606, 134, 98, {1, 0.6f, 0.15f, 1.1f}},
 }};
 constexpr std::array<Stone, 6> kStonesBeforeWood{{
     {66, 650, 132, 100, {2, 0.45f, 0.08f, 1.1f}},
@@ -87,12 +87,14 @@ Result<Scene> Scene::make(Renderer& renderer) {
     const char* name;
     std::string text;
   };
-  const std::array<Source, 6> sources{{
+  const std::array<Source, 8> sources{{
       {&scene.wall_, "aquarium/wall.frag", common + std::string(glsl::wall_frag)},
       {&scene.gravel_, "aquarium/gravel.frag", common + std::string(glsl::gravel_frag)},
       {&scene.stone_, "aquarium/stone.frag", common + std::string(glsl::stone_frag)},
       {&scene.wood_, "aquarium/wood.frag", common + std::string(glsl::wood_frag)},
       {&scene.caustics_, "aquarium/caustics.frag", std::string(glsl::caustics_frag)},
+      {&scene.net_effect_, "aquarium/net.frag", common + std::string(glsl::net_frag)},
+      {&scene.surface_, "aquarium/surface.frag", common + std::string(glsl::surface_frag)},
       {&scene.water_, "aquarium/water.frag", common + std::string(glsl::water_frag)},
   }};
   for (const Source& source : sources) {
@@ -142,21 +144,33 @@ void Scene::draw_backdrop(Renderer& renderer) {
 }
 
 void Scene::draw_water(Renderer& renderer, float seconds) {
-  const Uniform time("time", std::fmod(seconds, 3600.0f));
-  renderer.begin_layer(net_);
-  renderer.run_effect(caustics_, {&time, 1}, {{}, BlendMode::Replace});
-  renderer.end_layer();
-
-  const auto run = [&](const View& view) {
-    renderer.run_effect(water_,
-                        std::array{view_uniform(view), time, Uniform("backdrop", backdrop_),
-                                   Uniform("caustics", net_)},
-                        {{}, BlendMode::Replace});
+  const std::array uniforms{view_uniform(view_), Uniform("time", std::fmod(seconds, 3600.0f)),
+                            Uniform("backdrop", backdrop_), Uniform("caustics", net_)};
+  const auto area = [&](float top, float bottom) {
+    return frame_area(view_, {-1e5f, top, 1e5f, bottom}, renderer.width(), renderer.height());
   };
-  if (quality_ == Quality::High) return run(view_);
-  const int divisor = quality_ == Quality::Middle ? 2 : 3;
-  const int width = std::max(1, renderer.width() / divisor);
-  const int height = std::max(1, renderer.height() / divisor);
+  renderer.run_effect(water_, uniforms, {{}, BlendMode::Replace});
+  // Only where there is something to see: these two cost as much a pixel as the water itself.
+  renderer.run_effect(net_effect_, uniforms, {area(320, 1e5f), BlendMode::Multiply});
+  renderer.run_effect(surface_, uniforms, {area(-1e5f, 82), BlendMode::Over});
+}
+
+void Scene::draw_far(Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment) {
+  // Fish lie in the world from near to far (the player's first); weeds of their depth go first.
+  float far = 9;
+  for (std::size_t k = moment.world.fish.size(); k-- > 1;) {
+    const Fish& fish = moment.world.fish[k];
+    draw_plants(renderer, moment, far, fish.depth);
+    draw_fish(renderer, frames, moment, fish);
+    far = fish.depth;
+  }
+  draw_plants(renderer, moment, far, 0);
+}
+
+/// Draws the tank into a smaller picture and stretches it: the water, and at Low all that is far.
+void Scene::draw_coarse(Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment) {
+  const int width = std::max(1, renderer.width() / 2);
+  const int height = std::max(1, renderer.height() / 2);
   if (width != coarse_width_ || height != coarse_height_) {
     renderer.free_layer(coarse_);
     const Result<Layer> made = renderer.make_layer(width, height);
@@ -164,10 +178,14 @@ void Scene::draw_water(Renderer& renderer, float seconds) {
     coarse_width_ = width;
     coarse_height_ = height;
   }
+  const View whole = view_;
   const float k = static_cast<float>(width) / static_cast<float>(renderer.width());
+  view_ = {whole.scale * k, {whole.offset.x * k, whole.offset.y * k}};
   renderer.begin_layer(coarse_);
-  run({view_.scale * k, {view_.offset.x * k, view_.offset.y * k}});
+  draw_water(renderer, moment.seconds);
+  if (quality_ == Quality::Low) draw_far(renderer, frames, moment);
   renderer.end_layer();
+  view_ = whole;
   renderer.draw_layer(coarse_, {{}, BlendMode::Replace});
 }
 
@@ -275,7 +293,8 @@ void Scene::draw_sparks(Renderer& renderer, float seconds) {
     }
     if (!mine) continue;
     const float size = 20 + 4.0f * static_cast<float>(spark.event.combo);
-    const std::string text = "+" + std::to_string(spark.event.points);
+    std::string text = "+";
+    text += std::to_string(spark.event.points);
     vsprite::TextStyle style{
         size, {1, 0.93f, 0.72f, std::min(1.0f, 2.2f * (1 - age))}, 1.5f, vsprite::Align::Center};
     renderer.draw_text(text, {at.x, at.y - 46 - 34 * age}, style);
@@ -350,17 +369,16 @@ void Scene::draw(Renderer& renderer, vsprite::FrameCache& frames, const Moment& 
     if (fish.depth < 0.4f) wakes_.push_back({place_of(fish), {v.x * fish.scale, v.y * fish.scale}});
   }
 
-  draw_water(renderer, moment.seconds);
-  // Fish lie in the world from near to far (the player's first); weeds of their depth go before
-  // them.
-  float far = 9;
-  for (std::size_t k = moment.world.fish.size(); k-- > 1;) {
-    const Fish& fish = moment.world.fish[k];
-    draw_plants(renderer, moment, far, fish.depth);
-    draw_fish(renderer, frames, moment, fish);
-    far = fish.depth;
+  const Uniform time("time", std::fmod(moment.seconds, 3600.0f));
+  renderer.begin_layer(net_);
+  renderer.run_effect(caustics_, {&time, 1}, {{}, BlendMode::Replace});
+  renderer.end_layer();
+  if (quality_ == Quality::High) {
+    draw_water(renderer, moment.seconds);
+  } else {
+    draw_coarse(renderer, frames, moment);
   }
-  draw_plants(renderer, moment, far, 0);
+  if (quality_ != Quality::Low) draw_far(renderer, frames, moment);
   draw_bubbles(renderer, moment.seconds, false);
   draw_food(renderer, moment);
   draw_fish(renderer, frames, moment, moment.world.fish[0]);

@@ -18,7 +18,7 @@
 
 namespace aquarium {
 
-/// How fine the water is drawn; coarser is faster.
+/// Middle draws the water at half the resolution, Low everything behind the player's fish.
 enum class Quality : std::uint8_t { Low, Middle, High };
 
 /// What is drawn, and when: `fraction` of a tick after the world's last step.
@@ -50,6 +50,8 @@ class Scene {
   };
   void draw_backdrop(vsprite::Renderer& renderer);
   void draw_water(vsprite::Renderer& renderer, float seconds);
+  void draw_far(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment);
+  void draw_coarse(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment);
   void draw_plants(vsprite::Renderer& renderer, const Moment& moment, float far, float near);
   void draw_fish(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,
                  const Fish& fish) const;
@@ -58,7 +60,7 @@ class Scene {
   void draw_bubbles(vsprite::Renderer& renderer, float seconds, bool near) const;
   void draw_motes(vsprite::Renderer& renderer, float seconds) const;
 
-  vsprite::Effect wall_, gravel_, stone_, wood_, caustics_, water_;
+  vsprite::Effect wall_, gravel_, stone_, wood_, caustics_, water_, net_effect_, surface_;
   vsprite::Layer backdrop_, net_, coarse_;
   int backdrop_width_ = 0, backdrop_height_ = 0;
   int coarse_width_ = 0, coarse_height_ = 0;

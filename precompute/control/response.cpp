@@ -1,3 +1,238 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
+//
+// Headless runs of the engine's actor, measured as DESIGN section 4 defines.
 #include "control/response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "similarity/features.h"
+#include "similarity/random.h"
+#include "vsprite/actor.h"
+
+namespace vsprite {
+namespace {
+
+constexpr int kStarts = 5;
+constexpr double kSettle = 2, kTravel = 10;        // s
+constexpr double kReachable = 60, kTurned = 22.5;  // degrees
+constexpr std::size_t kWindow = 5;                 // film frames of the travelled direction
+constexpr double kLeastShare = 0.25;               // of the usual speed
+
+double degrees(double radians) { return radians * 180 / kPi; }
+
+// Angle between a displacement and a compass direction, degrees.
+double error_deg(Position from, Position to, Direction direction) {
+  const Vec2 unit = unit_vector(direction);
+  return degrees(angle_between(static_cast<double>(to.x - from.x),
+                               static_cast<double>(to.y - from.y), static_cast<double>(unit.x),
+                               static_cast<double>(unit.y)));
+}
+
+double length_px(Position from, Position to) {
+  const double x = static_cast<double>(to.x - from.x), y = static_cast<double>(to.y - from.y);
+  return std::sqrt(x * x + y * y) / static_cast<double>(kFixedOne);
+}
+
+double usual_speed(const Sprite& sprite) {
+  std::vector<double> speeds, areas;
+  for (const Sample& s : sprite.samples()) {
+    if (!s.kept) continue;
+    const double x = static_cast<double>(s.velocity.x), y = static_cast<double>(s.velocity.y);
+    speeds.push_back(std::sqrt(x * x + y * y));
+    areas.push_back(static_cast<double>(s.area));
+  }
+  return measure_speeds(std::move(speeds), std::move(areas)).usual;
+}
+
+std::uint64_t ticks(double seconds, double fps) {
+  return static_cast<std::uint64_t>(std::ceil(seconds * fps));
+}
+
+void run(const Sprite& sprite, Actor& actor, std::uint64_t count) {
+  for (std::uint64_t t = 0; t < count; ++t) step(sprite, actor);
+}
+
+// Mean (nearest-rank for p): values are sorted in place. Pre: not empty.
+double median(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return (values[(n - 1) / 2] + values[n / 2]) / 2;
+}
+double percentile(std::vector<double>& values, std::size_t percent) {
+  std::sort(values.begin(), values.end());
+  return values[(values.size() * percent + 99) / 100 - 1];
+}
+
+// Follows the last command until the travelled direction fits it.
+class TurnMeter {
+ public:
+  TurnMeter(double least_px, std::uint32_t served) : least_px_(least_px), served_(served) {}
+
+  void command(Direction direction, std::uint64_t tick) {
+    if (waiting_) {
+      turns_.push_back(static_cast<double>(tick - since_));
+      ++unfinished_;
+    }
+    waiting_ = static_cast<int>(direction) < kCompassCount &&
+               (served_ >> static_cast<int>(direction) & 1u) != 0;
+    wanted_ = direction;
+    since_ = tick;
+  }
+  void look(Position position, std::uint64_t tick) {
+    past_.push_back(position);
+    if (past_.size() > kWindow + 1) past_.pop_front();
+    if (!waiting_ || past_.size() <= kWindow) return;
+    if (length_px(past_.front(), position) < least_px_) return;
+    if (error_deg(past_.front(), position, wanted_) > kTurned) return;
+    turns_.push_back(static_cast<double>(tick - since_));
+    waiting_ = false;
+  }
+  std::vector<double>& turns() { return turns_; }
+  int unfinished() const { return unfinished_; }
+
+ private:
+  double least_px_ = 0;
+  std::uint32_t served_ = 0;
+  std::deque<Position> past_;
+  std::vector<double> turns_;
+  Direction wanted_ = Direction::None;
+  std::uint64_t since_ = 0;
+  bool waiting_ = false;
+  int unfinished_ = 0;
+};
+
+void sum_up(std::vector<double>& costs, TurnMeter& meter, std::uint64_t jumps, double fps,
+            SteerReport& report) {
+  report.turns = static_cast<int>(meter.turns().size());
+  report.unfinished = meter.unfinished();
+  if (report.turns > 0) {
+    report.turn_median = median(meter.turns());
+    report.turn_p95 = percentile(meter.turns(), 95);
+  }
+  if (costs.empty()) return;
+  double sum = 0;
+  for (double c : costs) sum += c;
+  report.cost_mean = sum / static_cast<double>(costs.size());
+  report.cost_p99 = percentile(costs, 99);
+  report.cost_max = costs.back();
+  report.jumps_per_second = static_cast<double>(jumps) * fps / static_cast<double>(costs.size());
+}
+
+}  // namespace
+
+std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode,
+                                                              std::uint64_t seed) {
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < sprite.samples().size(); ++i) {
+    if (sprite.samples()[i].kept) kept.push_back(i);
+  }
+  Random random{seed};
+  std::array<std::uint32_t, kStarts> starts{};
+  for (std::uint32_t& start : starts) start = kept[random.below(kept.size())];
+  const double usual = usual_speed(sprite);
+
+  std::array<DirectionReport, kCompassCount> reports{};
+  for (int d = 0; d < kCompassCount; ++d) {
+    DirectionReport& report = reports[static_cast<std::size_t>(d)];
+    report.direction = static_cast<Direction>(d);
+    double error = 0;
+    for (const std::uint32_t start : starts) {
+      Actor actor = make_actor(sprite, {}, seed, mode);
+      actor.sample = start;
+      set_direction(sprite, actor, report.direction);
+      run(sprite, actor, ticks(kSettle, sprite.fps()));
+      const Position from = actor.position;
+      run(sprite, actor, ticks(kTravel, sprite.fps()));
+      error += error_deg(from, actor.position, report.direction) / kStarts;
+      report.speed += length_px(from, actor.position) / (kTravel * kStarts);
+    }
+    report.reachable = usual > 0 && report.speed >= kLeastShare * usual && error <= kReachable;
+    if (report.reachable) report.tracking_error_deg = error;
+  }
+  return reports;
+}
+
+ServedDirections serve_directions(const std::array<DirectionReport, kCompassCount>& reports) {
+  ServedDirections result;
+  result.table_of.fill(Direction::Rest);
+  result.table_of[static_cast<std::size_t>(Direction::None)] = Direction::None;
+  for (std::size_t d = 0; d < kCompassCount; ++d) {
+    if (!reports[d].reachable) continue;
+    result.table_of[d] = static_cast<Direction>(d);
+    result.served |= 1u << d;
+  }
+  // Within 60 degrees of a compass direction lie only its two neighbours, 45 degrees away.
+  for (std::size_t d = 0; d < kCompassCount; ++d) {
+    if (reports[d].reachable) continue;
+    const DirectionReport* best = nullptr;
+    for (const std::size_t turn : {std::size_t{1}, std::size_t{7}}) {
+      const DirectionReport& near = reports[(d + turn) % kCompassCount];
+      if (!near.reachable) continue;
+      if (!best || *near.tracking_error_deg < *best->tracking_error_deg) best = &near;
+    }
+    if (best) result.table_of[d] = best->direction;
+  }
+  return result;
+}
+
+SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script,
+                             std::uint64_t frames, std::uint64_t seed,
+                             std::vector<TraceRow>* trace) {
+  const double fps = sprite.fps();
+  TurnMeter meter(kLeastShare * usual_speed(sprite) * static_cast<double>(kWindow) / fps,
+                  sprite.data().modes[static_cast<std::size_t>(mode)].served);
+  Actor actor = make_actor(sprite, {}, seed, mode);
+  StateHash hash;
+  SteerReport report;
+  std::vector<double> costs;
+  costs.reserve(frames);
+  std::uint64_t jumps = 0;
+  for (std::uint64_t tick = 0; tick < frames; ++tick) {
+    const Direction wanted = script.at(tick);
+    if (wanted != actor.direction) meter.command(wanted, tick);
+    set_direction(sprite, actor, wanted);
+    meter.look(actor.position, tick);
+    const Actor before = actor;
+    step(sprite, actor);
+    hash.add(actor);
+    costs.push_back(static_cast<double>(shown_cost(sprite, before.sample, actor)));
+    jumps += actor.jumped;
+    const bool over = before.shown >= sprite.samples()[before.sample].duration;
+    report.freezes += over && actor.sample == before.sample;
+    if (trace) {
+      trace->push_back({actor.tick, actor.sample,
+                        static_cast<double>(actor.position.x) / static_cast<double>(kFixedOne),
+                        static_cast<double>(actor.position.y) / static_cast<double>(kFixedOne),
+                        actor.direction, actor.table, costs.back()});
+    }
+  }
+  report.frames = frames;
+  report.states_hash = hash.digest();
+  sum_up(costs, meter, jumps, fps, report);
+  double error = 0;
+  int reached = 0;
+  for (const DirectionReport& d : measure_directions(sprite, mode, seed)) {
+    if (!d.reachable) continue;
+    error += *d.tracking_error_deg;
+    ++reached;
+  }
+  if (reached > 0) report.tracking_error_deg = error / reached;
+  return report;
+}
+
+KeyScript random_script(double seconds, double min_s, double max_s, double fps,
+                        std::uint64_t seed) {
+  Random random{seed};
+  KeyScript script;
+  std::size_t direction = random.below(kCompassCount);
+  for (double t = 0; t < seconds; t += min_s + (max_s - min_s) * random.unit()) {
+    direction = (direction + 1 + random.below(kCompassCount - 1)) % kCompassCount;
+    script.entries.push_back({ticks(t, fps), static_cast<Direction>(direction)});
+  }
+  return script;
+}
+
+}  // namespace vsprite

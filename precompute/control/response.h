@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// control/response.h - how a solved sprite answers: which directions it can travel, how well, how fast.
+// control/response.h - how a solved sprite answers: which directions it can travel, how well, how
+// fast.
 //
-// Runs the engine's own actor, so that what is measured is what a player gets.
+// Runs the engine's own actor, so that what is measured is what a player gets. The measures are
+// those of DESIGN section 4. `usual speed`: the median speed of the sprite's moving samples.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "vsprite/geometry.h"
@@ -22,17 +23,27 @@ namespace vsprite {
 /// position(12 s) - position(2 s), mean of five seeded starts.
 struct DirectionReport {
   Direction direction = Direction::Right;
-  bool reachable = false;                        ///< travels, within 60 degrees of the command
-  std::optional<double> tracking_error_deg;      ///< empty where unreachable
-  double speed = 0;                              ///< px/s of that displacement
+  bool reachable = false;  ///< at a quarter of the usual speed or more, within 60 degrees
+  std::optional<double> tracking_error_deg;  ///< empty where unreachable
+  double speed = 0;                          ///< px/s of that displacement, mean
 };
-std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode, std::uint64_t seed);
+std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode,
+                                                              std::uint64_t seed);
+
+/// Which commands have a table of their own, and what the others follow.
+struct ServedDirections {
+  std::array<Direction, kDirectionCount> table_of{};
+  std::uint32_t served = 0;  ///< bit d: direction d can be travelled
+};
+/// A command that cannot be travelled follows the nearest served direction within 60 degrees (of
+/// two equally near, the one that tracks better), else Rest.
+ServedDirections serve_directions(const std::array<DirectionReport, kCompassCount>& reports);
 
 /// A headless control run: one row a tick.
 struct TraceRow {
-  std::uint64_t frame = 0;
+  std::uint64_t frame = 0;  ///< ticks made, from 1
   std::uint32_t sample = 0;
-  double x = 0, y = 0;
+  double x = 0, y = 0;  ///< px
   Direction direction = Direction::None;
   int table = 0;
   double cost = 0;
@@ -41,15 +52,17 @@ struct TraceRow {
 struct SteerReport {
   std::uint64_t frames = 0;
   std::uint64_t states_hash = 0;
-  std::optional<double> tracking_error_deg;      ///< mean over the served directions
-  double turn_median = 0, turn_p95 = 0;          ///< frames_to_turn, ticks
-  int turns = 0, unfinished = 0;
+  std::optional<double> tracking_error_deg;  ///< mean over the reachable directions
+  double turn_median = 0, turn_p95 = 0;      ///< frames_to_turn, ticks; 0 without a turn
+  int turns = 0, unfinished = 0;  ///< commands to a served direction; those never reached
   double cost_mean = 0, cost_p99 = 0, cost_max = 0;
   double jumps_per_second = 0;
   std::uint64_t freezes = 0;
 };
-SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script, std::uint64_t frames,
-                             std::uint64_t seed, std::vector<TraceRow>* trace = nullptr);
+/// A command that the end of the run cuts off before its turn is not counted.
+SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script,
+                             std::uint64_t frames, std::uint64_t seed,
+                             std::vector<TraceRow>* trace = nullptr);
 
 /// Commands that change every `min_s`..`max_s` seconds to another of the eight, for `seconds`.
 KeyScript random_script(double seconds, double min_s, double max_s, double fps, std::uint64_t seed);

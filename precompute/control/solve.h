@@ -3,15 +3,15 @@
 //
 // control/solve.h - the discounted cost to go, for eight directions, no direction and rest.
 //
-//     F_ij = T_ij + w1 a_j(l) + alpha min_k F_jk,   V_j = min_k F_jk          [NIPS eq. 2]
+//     F_ij = T_ij + w1 a_j(l) + alpha min_k F_jk,   V_i = min_j F_ij          [NIPS eq. 2]
 //     a_j(l) = f |angle(v_j, l)| + (1 - f) pi,  f = min(1, |v_j| / v0)
 //     V^k_i = min_j [T_ij + alpha V^(k-1)_j],  k = 1..K                        [NIPS section 4.1]
 //
-// none: w1 = 0. rest: a_j = pi * min(1, |v_j| / v0) (prefers low speed). Deterministic problem, so a
-// policy is a functional graph: exact evaluation in O(N), improvement by Gauss-Seidel (Howard).
+// none: w1 = 0. rest: a_j = pi f (prefers low speed). A deterministic problem, so a policy is a
+// functional graph: every sample runs into one cycle, on which V is a geometric sum. Evaluation is
+// exact in O(N), whatever alpha; a few Gauss-Seidel sweeps improve the policy (Howard).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,24 +23,34 @@
 namespace vsprite {
 
 struct SolveConfig {
-  double alpha = 0.97;   ///< [0, 1)
-  double w1 = 0.6;       ///< per radian, >= 0
-  double cap = 1.0;      ///< transitions dearer than this are left out, > 0 (rows never emptied)
-  int free_steps = 5;    ///< K, 0..10
+  double alpha = 0.97;  ///< [0, 1)
+  double w1 = 0;        ///< per radian, >= 0; 0 = by rule: pi w1 = 2.5 x the median accepted T
+  double cap = 1.0;    ///< transitions dearer than this are left out, > 0; from a sample without an
+                       ///< edge under the cap its cheapest are kept
+  int free_steps = 5;  ///< K, 0..10
 };
 
 /// Everything about a mode that the pack stores, and V itself.
 struct Solution {
-  int stages = 1;                        ///< K + 1
-  std::vector<float> values;             ///< (10, stages, N); +inf where a sample was not kept
-  std::vector<std::uint32_t> next;       ///< (10 * stages, N); kNoSample where not kept
-  double residual = 0;                   ///< largest |TV - V|, in double, over all tables
-  double error_bound = 0;                ///< residual / (1 - alpha)
+  int stages = 1;                   ///< K + 1
+  double w1 = 0;                    ///< as used
+  std::vector<float> values;        ///< (10, stages, N); +inf where a sample was not kept
+  std::vector<std::uint32_t> next;  ///< (10 * stages, N) argmin of the same sum, from V as stored;
+                                    ///< ties: the lowest sample; kNoSample where not kept
+  double residual = 0;              ///< largest |TV - V| of V as stored, in double, over all tables
+  double error_bound = 0;           ///< residual / (1 - alpha)
 };
 
-/// `velocities`: (N) px/s; `v0` px/s > 0.
-/// Errors: BadSetting (alpha, w1, cap, free_steps out of range or not finite).
+/// a_j(l) in radians, [0, pi]; 0 for None.
+double direction_cost(Vec2 velocity, double v0, Direction direction) noexcept;
+
+/// The default w1 of a film: pi w1 = 2.5 x the median cost of its jumps; 0.6 where it has none.
+double default_w1(const CostTable& costs);
+
+/// `velocities`: (N) px/s; `v0` px/s > 0. `jobs`: threads, 0 = all; the result does not depend on
+/// it. Errors: BadSetting (alpha, w1, cap, free_steps out of range or not finite), BadContent (a
+/// kept sample without a transition, or one that leads to a sample not kept).
 Result<Solution> solve(const CostTable& costs, std::span<const Vec2> velocities, double v0,
-                       const SolveConfig& config);
+                       const SolveConfig& config, int jobs = 0);
 
 }  // namespace vsprite

@@ -51,13 +51,25 @@ struct Track {
   double body = 0;  // usual longer side, px
 };
 
-// The largest part; of parts of like size the one that is nearer to where the subject was.
+// The usual area is that of the largest part that is whole in the picture. A part is the subject if
+// it is not a speck against that; the largest one, unless another of like size or of more usual
+// size lies nearer to where the subject was.
 Track follow(std::span<const FrameSummary> frames) {
   Track track;
   std::vector<double> areas;
-  for (const FrameSummary& frame : frames)
-    if (!frame.blobs.empty()) areas.push_back(frame.blobs[0].area);
-  track.usual_area = median(areas);
+  std::vector<double> cut_areas;
+  for (const FrameSummary& frame : frames) {
+    for (const Blob& blob : frame.blobs) {
+      if (blob.touches_border) continue;
+      areas.push_back(blob.area);
+      break;
+    }
+    if (!frame.blobs.empty()) cut_areas.push_back(frame.blobs[0].area);
+  }
+  track.usual_area = median(areas.empty() ? cut_areas : areas);
+  const auto unlike = [&](const Blob& blob) {
+    return std::max(blob.area / track.usual_area, track.usual_area / blob.area);
+  };
   const Blob* last = nullptr;
   std::vector<double> sides;
   for (const FrameSummary& frame : frames) {
@@ -68,15 +80,13 @@ Track follow(std::span<const FrameSummary> frames) {
         choice = &blob;
         continue;
       }
-      if (last && blob.area > kLikeSize * frame.blobs[0].area &&
-          distance(blob, *last) < distance(*choice, *last))
-        choice = &blob;
+      const bool nearer = !last || distance(blob, *last) < distance(*choice, *last);
+      const bool fits = blob.area > kLikeSize * choice->area || unlike(*choice) > 2 * unlike(blob);
+      if (nearer && fits) choice = &blob;
     }
     track.blob.push_back(choice);
-    if (choice) {
-      last = choice;
-      if (!choice->touches_border) sides.push_back(longer_side(*choice));
-    }
+    if (choice && unlike(*choice) < kAreaJump) last = choice;
+    if (choice && !choice->touches_border) sides.push_back(longer_side(*choice));
   }
   track.body = std::max(median(sides), 8.0);
   return track;
@@ -90,7 +100,7 @@ Result<void> check_single(std::span<const FrameSummary> frames, const Track& tra
     if (!track.blob[f]) continue;
     ++present;
     const auto& blobs = frames[f].blobs;
-    if (blobs.size() < 2 || blobs[1].area <= kLikeSize * blobs[0].area ||
+    if (blobs.size() < 2 || blobs[1].area <= kLikeSize * track.blob[f]->area ||
         blobs[1].area <= kLikeSize * track.usual_area)
       continue;
     if (rivals++ == 0) first = &frames[f];

@@ -117,9 +117,21 @@ Mask open_disc(const Mask& mask, int radius) {
 
 namespace {
 
-// Rows: a running sum in double, so that what leaves the box leaves nothing behind.
+// Rows: a running sum in double, so that what leaves the box leaves nothing behind; small boxes
+// directly.
 void blur_rows(const float* in, float* out, int width, int height, int radius) {
   const float scale = 1.0f / static_cast<float>(2 * radius + 1);
+  if (radius <= 2 && width > 2 * radius) {
+    for (int y = 0; y < height; ++y, in += width, out += width) {
+      for (int x = 0; x < width; ++x) out[x] = in[x];
+      for (int k = 1; k <= radius; ++k) {
+        for (int x = 0; x < width - k; ++x) out[x] += in[x + k];
+        for (int x = k; x < width; ++x) out[x] += in[x - k];
+      }
+      for (int x = 0; x < width; ++x) out[x] *= scale;
+    }
+    return;
+  }
   for (int y = 0; y < height; ++y, in += width, out += width) {
     double sum = 0;
     for (int x = 0; x < std::min(radius, width); ++x) sum += static_cast<double>(in[x]);
@@ -133,6 +145,22 @@ void blur_rows(const float* in, float* out, int width, int height, int radius) {
 
 void blur_columns(const float* in, float* out, int width, int height, int radius) {
   const float scale = 1.0f / static_cast<float>(2 * radius + 1);
+  if (radius <= 2) {
+    for (int y = 0; y < height; ++y, out += width) {
+      const float* middle = in + static_cast<std::ptrdiff_t>(y) * width;
+      for (int x = 0; x < width; ++x) out[x] = middle[x];
+      for (int k = 1; k <= radius; ++k) {
+        const float* above = middle - static_cast<std::ptrdiff_t>(k) * width;
+        const float* below = middle + static_cast<std::ptrdiff_t>(k) * width;
+        if (y >= k)
+          for (int x = 0; x < width; ++x) out[x] += above[x];
+        if (y + k < height)
+          for (int x = 0; x < width; ++x) out[x] += below[x];
+      }
+      for (int x = 0; x < width; ++x) out[x] *= scale;
+    }
+    return;
+  }
   std::vector<double> sums(static_cast<std::size_t>(width), 0.0);
   const auto row = [&](int y) { return in + static_cast<std::ptrdiff_t>(y) * width; };
   for (int y = 0; y < std::min(radius, height); ++y)

@@ -28,8 +28,6 @@ using detail::Silhouette;
 constexpr int kMostBlobs = 32;
 constexpr float kDetailRidge = 1e-4f;
 
-float linear_luma(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
-
 // Four times the encoded luma, 0..1020: an index of the table of sums.
 std::size_t luma_index(const std::uint8_t* bgr) {
   return static_cast<std::size_t>((29 * bgr[0] + 150 * bgr[1] + 77 * bgr[2] + 32) / 64);
@@ -200,7 +198,10 @@ void Keyer::Impl::raise_alpha(const Frame& frame) {
       const Bilinear up(between(x, patch.width), rows, patch.width);
       const float g = light[luma_index(frame_at(frame, x, y))] - plate_luma(x, y);
       const float a = up.of(patch.alpha) + up.of(gain) * (g - up.of(guide));
-      out = a < config.clip_low ? 0.0f : a > config.clip_high ? 1.0f : a;
+      // Without a key shadows and the codec's smear look like thin subject: they are taken off.
+      const float shade = screen->key < 0 ? 0.15f : 0.0f;
+      const float clear = (a - shade) / (1 - shade);
+      out = clear < config.clip_low ? 0.0f : clear > config.clip_high ? 1.0f : clear;
     }
   }
 }
@@ -379,12 +380,16 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
         total = 1;
       }
       for (float& value : f) value /= total;
-      // Brightness of the pixel itself, trusted as far as it is covered.
-      const float expected = std::max(linear_luma(f[0], f[1], f[2]), 1e-4f);
-      const float seen = (light[luma_index(bgr)] - (1 - a) * plate_luma(x, y)) / a;
-      const float ratio = std::clamp(seen / expected, 0.5f, 2.0f);
-      const float scale = 1 + a * a * (ratio - 1);
-      for (int p = 0; p < 3; ++p) out[p] = detail::encoded_of(f[p] * scale);
+      // Brightness of the pixel itself, trusted as far as it is covered: what its luma is above
+      // that of the mixture expected, in code values.
+      const std::uint8_t own_bgr[3] = {detail::encoded_of(f[2]), detail::encoded_of(f[1]),
+                                       detail::encoded_of(f[0])};
+      const float mixed = a * light[luma_index(own_bgr)] + (1 - a) * plate_luma(x, y);
+      const float expected = static_cast<float>(4 * detail::encoded_of(mixed));
+      const float lift = 0.25f * a * a * (static_cast<float>(luma_index(bgr)) - expected);
+      for (int p = 0; p < 3; ++p)
+        out[p] = static_cast<std::uint8_t>(
+            std::clamp(static_cast<float>(own_bgr[2 - p]) + lift + 0.5f, 0.0f, 255.0f));
     }
   }
 }

@@ -287,27 +287,35 @@ void average_bare(std::span<const Frame> frames, const std::vector<Grid>& grids,
     }
 }
 
+// Noise of the bare screen about the plate and the frame's own drift, by median: what is left of
+// the subject does not count.
 void measure_noise(const std::vector<Grid>& grids, const Bare& bare, ScreenModel& screen) {
-  double squares[3] = {};
-  double count = 0;
-  for (std::size_t f = 0; f < grids.size(); ++f)
-    for (std::size_t i = 0; i < grids[f].cells(); i += 3) {
-      if (!bare.in[f].in[i]) continue;
-      const Grid& grid = grids[f];
-      const Ycc d = ycc(0.25f * grid.plane[0][i] - screen.cells[0][i],
-                        0.25f * grid.plane[1][i] - screen.cells[1][i],
-                        0.25f * grid.plane[2][i] - screen.cells[2][i]);
-      squares[0] += static_cast<double>(d.y) * static_cast<double>(d.y);
-      squares[1] += static_cast<double>(d.cb) * static_cast<double>(d.cb);
-      squares[2] += static_cast<double>(d.cr) * static_cast<double>(d.cr);
-      count += 1;
-    }
-  for (int p = 0; p < 3; ++p)
-    screen.noise[p] = count > 0 ? static_cast<float>(std::sqrt(squares[p] / count)) : 1.0f;
+  Spread spread[3];
+  for (std::size_t f = 0; f < grids.size(); ++f) {
+    const Grid& grid = grids[f];
+    const Surface drift = detail::fit_drift(screen, grid, 9);
+    for (int y = 1; y < grid.height; y += 2)
+      for (int x = 1; x < grid.width; x += 2) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
+                              static_cast<std::size_t>(x);
+        if (!bare.in[f].in[i]) continue;
+        const double u = detail::scaled(x, grid.width);
+        const double v = detail::scaled(y, grid.height);
+        float d[3];
+        for (int p = 0; p < 3; ++p)
+          d[p] =
+              0.25f * grid.plane[p][i] - screen.cells[p][i] - static_cast<float>(drift.at(p, u, v));
+        const Ycc r = ycc(d[0], d[1], d[2]);
+        spread[0].add(static_cast<double>(r.y));
+        spread[1].add(static_cast<double>(r.cb));
+        spread[2].add(static_cast<double>(r.cr));
+      }
+  }
+  for (int p = 0; p < 3; ++p) screen.noise[p] = static_cast<float>(spread[p].sigma());
   const float all =
       std::sqrt(screen.noise[0] * screen.noise[0] +
                 2 * (screen.noise[1] * screen.noise[1] + screen.noise[2] * screen.noise[2]));
-  screen.threshold = std::max(8 * all, 9.0f);
+  screen.threshold = std::clamp(8 * all, 9.0f, 24.0f);
 }
 
 // Median of each channel over the plate.
@@ -429,6 +437,8 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   const auto& light = detail::linear_of_sums();
   std::vector<std::uint32_t> strengths(400);  // v in fiftieths
   std::uint64_t strength_count = 0;
+  std::vector<std::uint32_t> contrasts(512);
+  std::uint64_t contrast_count = 0;
   std::vector<int> areas;
   std::vector<int> labels;
   for (const Frame& frame : frames) {
@@ -438,6 +448,12 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
     std::vector<int> size(static_cast<std::size_t>(parts) + 1);
     for (const int label : labels) ++size[static_cast<std::size_t>(label)];
     areas.push_back(*std::max_element(size.begin() + 1, size.end()));
+    const Mask inside = erode(s.mask, 1);
+    for (std::size_t i = 0; i < inside.in.size(); ++i) {
+      if (!inside.in[i]) continue;
+      ++contrasts[std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1)];
+      ++contrast_count;
+    }
     if (screen.key < 0) continue;
     const Mask deep = erode(s.mask, 4);
     for (std::size_t i = 0; i < deep.in.size(); ++i) {
@@ -461,6 +477,10 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   while (bin < 399 && 10 * (seen += strengths[bin]) < 9 * strength_count) ++bin;
   if (strength_count > 0)
     screen.key_normaliser = std::max(1.0f, (static_cast<float>(bin) + 0.5f) / 50);
+  seen = 0;
+  bin = 0;
+  while (bin < contrasts.size() - 1 && 2 * (seen += contrasts[bin]) < contrast_count) ++bin;
+  screen.subject_contrast = static_cast<float>(bin);
   if (areas.empty()) return;
   std::nth_element(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2),
                    areas.end());

@@ -48,6 +48,7 @@ struct ScreenModel {
   float threshold = 9;          ///< code values: what differs less is screen
   int key = -1;                 ///< index of the colour difference that marks the screen, -1: none
   float key_normaliser = 1;     ///< the subject's usual key strength, >= 1 (film/unmix.h)
+  float subject_contrast = 0;   ///< the subject's usual distance from the plate, code values
   int opening = 2;              ///< cells, radius that removes tail and fins from the anchor's mask
   float hidden = 0;             ///< share of the plate that was never seen bare, 0..1
 };

@@ -73,24 +73,11 @@ bool SurfaceFit::solve(Surface& surface) const {
   return true;
 }
 
-namespace {
-
-// Luma and colour together; colour is the steadier witness in a compressed film and counts double.
-float distance_squared(float b, float g, float r) {
-  const float y = 0.114f * b + 0.587f * g + 0.299f * r;
-  const float cb = 0.564f * (b - y);
-  const float cr = 0.713f * (r - y);
-  return y * y + 2 * (cb * cb + cr * cr);
-}
-
 // The residual of the sure background, every fourth cell both ways, in four rounds. Each round
 // believes what lies near the round before.
-void fit_drift(const ScreenModel& screen, Silhouette& s) {
-  s.drift = Surface{};
-  const Grid& grid = s.grid;
-  const float reach[4] = {4 * screen.threshold, 2 * screen.threshold, screen.threshold,
-                          screen.threshold};
-  for (const float limit : reach) {
+Surface fit_drift(const ScreenModel& screen, const Grid& grid, float reach) {
+  Surface drift;
+  for (const float limit : {4 * reach, 2 * reach, reach, reach}) {
     SurfaceFit fit;
     for (int y = 2; y < grid.height; y += 4) {
       const double v = scaled(y, grid.height);
@@ -102,19 +89,19 @@ void fit_drift(const ScreenModel& screen, Silhouette& s) {
         float left[3];
         for (int p = 0; p < 3; ++p) {
           residual[p] = 0.25 * grid.plane[p][i] - static_cast<double>(screen.cells[p][i]);
-          left[p] = static_cast<float>(residual[p] - s.drift.at(p, u, v));
+          left[p] = static_cast<float>(residual[p] - drift.at(p, u, v));
         }
         if (distance_squared(left[0], left[1], left[2]) < limit * limit) fit.add(u, v, residual);
       }
     }
     // Too little screen in sight: the film's plate stands.
-    if (fit.count() * 16 * 20 < static_cast<int>(grid.cells())) {
-      s.drift = Surface{};
-      return;
-    }
-    fit.solve(s.drift);
+    if (fit.count() * 16 * 20 < static_cast<int>(grid.cells())) return Surface{};
+    fit.solve(drift);
   }
+  return drift;
 }
+
+namespace {
 
 // C = s B in linear light within 12 %, 0.35 < s < 1.3: the screen in shade.
 bool on_shadow_line(const float (&c)[3], const float (&b)[3]) {
@@ -127,24 +114,43 @@ bool on_shadow_line(const float (&c)[3], const float (&b)[3]) {
   return rest < 0.12f * 0.12f * s * s * bb;
 }
 
-void mark_differences(const ScreenModel& screen, Silhouette& s) {
+// Contrast of each cell to the frame's own plate, smoothed over 3 x 3.
+void measure_contrast(const ScreenModel& screen, Silhouette& s) {
   const Grid& grid = s.grid;
   const int w = grid.width;
-  const auto& light = linear_of_sums();
-  std::vector<float> far(grid.cells());
+  s.contrast.resize(grid.cells());
+  const float step = w > 1 ? 2.0f / static_cast<float>(w - 1) : 0.0f;
   for (int y = 0; y < grid.height; ++y) {
-    // Along a row the drift is a quadratic in x alone.
     const double v = scaled(y, grid.height);
+    const SurfaceRow blue = row_of(s.drift, 0, v);
+    const SurfaceRow green = row_of(s.drift, 1, v);
+    const SurfaceRow red = row_of(s.drift, 2, v);
+    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
+    const std::uint16_t* frame[3] = {grid.plane[0].data() + at, grid.plane[1].data() + at,
+                                     grid.plane[2].data() + at};
+    const float* plate[3] = {screen.cells[0].data() + at, screen.cells[1].data() + at,
+                             screen.cells[2].data() + at};
+    float* out = s.contrast.data() + at;
     for (int x = 0; x < w; ++x) {
-      const double u = scaled(x, w);
-      const std::size_t i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-      float d[3];
-      for (int p = 0; p < 3; ++p)
-        d[p] =
-            0.25f * grid.plane[p][i] - screen.cells[p][i] - static_cast<float>(s.drift.at(p, u, v));
-      far[i] = distance_squared(d[0], d[1], d[2]);
-      if (screen.key < 0 || far[i] < screen.threshold) continue;
+      const float u = step * static_cast<float>(x) - 1;
+      out[x] = std::sqrt(distance_squared(0.25f * frame[0][x] - plate[0][x] - blue.at(u),
+                                          0.25f * frame[1][x] - plate[1][x] - green.at(u),
+                                          0.25f * frame[2][x] - plate[2][x] - red.at(u)));
+    }
+  }
+}
+
+// A screen in shade is screen: its contrast is struck out.
+void forgive_shadows(const ScreenModel& screen, Silhouette& s) {
+  const Grid& grid = s.grid;
+  const auto& light = linear_of_sums();
+  for (int y = 0; y < grid.height; ++y) {
+    const double v = scaled(y, grid.height);
+    for (int x = 0; x < grid.width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
+                            static_cast<std::size_t>(x);
+      if (s.contrast[i] <= 0.5f * screen.threshold) continue;
+      const double u = scaled(x, grid.width);
       float c[3];
       float b[3];
       for (int p = 0; p < 3; ++p) {
@@ -152,22 +158,34 @@ void mark_differences(const ScreenModel& screen, Silhouette& s) {
         const float code = 4 * (screen.cells[p][i] + static_cast<float>(s.drift.at(p, u, v)));
         b[p] = light[static_cast<std::size_t>(std::clamp(code + 0.5f, 0.0f, 1020.0f))];
       }
-      if (on_shadow_line(c, b)) far[i] = 0;
+      if (on_shadow_line(c, b)) s.contrast[i] = 0;
     }
   }
-  for (float& d : far) d = std::sqrt(d);
-  std::vector<float> scratch;
-  blur(far, w, grid.height, 1, 1, scratch);
-  s.mask = Mask(w, grid.height);
-  for (std::size_t i = 0; i < far.size(); ++i) s.mask.in[i] = far[i] > screen.threshold ? 1 : 0;
+}
+
+// Without a key faint differences are shadows, reflections and the codec's smear: they count only
+// within three cells of what stands out as the subject does.
+void drop_faint(const ScreenModel& screen, Silhouette& s) {
+  Mask strong(s.mask.width, s.mask.height);
+  const float least = std::max(2 * screen.threshold, 0.2f * screen.subject_contrast);
+  for (std::size_t i = 0; i < strong.in.size(); ++i) strong.in[i] = s.contrast[i] > least ? 1 : 0;
+  const Mask near = dilate(strong, 3);
+  for (std::size_t i = 0; i < near.in.size(); ++i) s.mask.in[i] &= near.in[i];
 }
 
 }  // namespace
 
 void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
   make_grid(frame, s.grid);
-  fit_drift(screen, s);
-  mark_differences(screen, s);
+  s.drift = fit_drift(screen, s.grid, screen.threshold);
+  measure_contrast(screen, s);
+  if (screen.key >= 0) forgive_shadows(screen, s);
+  std::vector<float> scratch;
+  blur(s.contrast, s.grid.width, s.grid.height, 1, 1, scratch);
+  s.mask = Mask(s.grid.width, s.grid.height);
+  for (std::size_t i = 0; i < s.mask.in.size(); ++i)
+    s.mask.in[i] = s.contrast[i] > screen.threshold ? 1 : 0;
+  if (screen.key < 0) drop_faint(screen, s);
   s.mask = dilate(erode(s.mask, 1), 1);
   s.mask = erode(dilate(s.mask, 2), 2);
   s.left = s.grid.width;

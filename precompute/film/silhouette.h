@@ -38,11 +38,23 @@ class SurfaceFit {
   int count_ = 0;
 };
 
+/// The coefficients of one row of a surface: a + u (b + u c).
+struct SurfaceRow {
+  float a, b, c;
+  float at(float u) const { return a + u * (b + u * c); }
+};
+inline SurfaceRow row_of(const Surface& s, int plane, double y) {
+  const double* k = s.coefficient[plane];
+  return {static_cast<float>(k[0] + k[2] * y + k[5] * y * y), static_cast<float>(k[1] + k[4] * y),
+          static_cast<float>(k[3])};
+}
+
 /// A frame's own plate: the film's plate and the drift of exposure since, and what differs from it.
 struct Silhouette {
-  Grid grid;      ///< the frame
-  Surface drift;  ///< frame - plate on the bare screen, code values
-  Mask mask;      ///< whole grid, 1 = not screen
+  Grid grid;                    ///< the frame
+  Surface drift;                ///< frame - plate on the bare screen, code values
+  std::vector<float> contrast;  ///< smoothed distance to the plate, code values
+  Mask mask;                    ///< whole grid, 1 = not screen
   bool empty = true;
   int left = 0, top = 0, right = 0,
       bottom = 0;  ///< cells, box of the mask, right and bottom outside
@@ -50,6 +62,18 @@ struct Silhouette {
 
 /// Scaled coordinate of cell index i of n: -1..1.
 inline double scaled(int i, int n) { return n > 1 ? 2.0 * i / (n - 1) - 1 : 0.0; }
+
+/// Luma and colour together; colour is the steadier witness in a compressed film and counts double.
+inline float distance_squared(float b, float g, float r) {
+  const float y = 0.114f * b + 0.587f * g + 0.299f * r;
+  const float cb = 0.564f * (b - y);
+  const float cr = 0.713f * (r - y);
+  return y * y + 2 * (cb * cb + cr * cr);
+}
+
+/// The drift of the bare screen in a frame, code values; what differs by more than `reach` from the
+/// plate and the drift is not believed.
+Surface fit_drift(const ScreenModel& screen, const Grid& grid, float reach);
 
 /// Finds what is not screen. The result's buffers are reused from call to call.
 void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& result);

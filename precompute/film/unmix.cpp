@@ -19,7 +19,7 @@ constexpr float kSpill = 0.05f;         // share of the plate in a foreground ne
 constexpr float kShading = 0.1f;        // relative sigma of the foreground's brightness
 constexpr float kHue = 0.1f;            // sigma of its colour, relative to its luma
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one
-constexpr float kGlobalWeight = 1e-5f;  // of the whole patch
+constexpr float kGlobalWeight = 1e-4f;  // of the whole patch
 
 float luma(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
 
@@ -42,6 +42,27 @@ float gamut_bound(const Patch& patch, std::size_t i) {
     bound = std::max(bound, room > 1e-4f ? sure / room : 1.0f);
   }
   return std::min(bound, 1.0f);
+}
+
+std::vector<float> largest_around(const std::vector<float>& plane, int width, int height,
+                                  int radius) {
+  std::vector<float> rows = plane;
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+           static_cast<std::size_t>(x);
+  };
+  for (int y = 0; y < height; ++y)
+    for (int k = 1; k <= radius; ++k) {
+      for (int x = k; x < width; ++x)
+        rows[at(x, y)] = std::max(rows[at(x, y)], plane[at(x - k, y)]);
+      for (int x = 0; x + k < width; ++x)
+        rows[at(x, y)] = std::max(rows[at(x, y)], plane[at(x + k, y)]);
+    }
+  std::vector<float> both = rows;
+  for (int y = 0; y < height; ++y)
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
+      for (int x = 0; x < width; ++x) both[at(x, y)] = std::max(both[at(x, y)], rows[at(x, v)]);
+  return both;
 }
 
 Evidence gather_evidence(const ScreenModel& screen, const Patch& patch) {
@@ -70,19 +91,9 @@ Evidence gather_evidence(const ScreenModel& screen, const Patch& patch) {
   }
   if (screen.key >= 0) return e;
   // No key: the distance to the plate against the largest in 9 x 9.
-  for (int y = 0; y < patch.height; ++y)
-    for (int x = 0; x < patch.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(patch.width) +
-                            static_cast<std::size_t>(x);
-      if (!patch.region.in[i]) continue;
-      float most = 0.02f;
-      for (int v = std::max(y - 4, 0); v <= std::min(y + 4, patch.height - 1); ++v)
-        for (int u = std::max(x - 4, 0); u <= std::min(x + 4, patch.width - 1); ++u)
-          most = std::max(
-              most, e.raw[static_cast<std::size_t>(v) * static_cast<std::size_t>(patch.width) +
-                          static_cast<std::size_t>(u)]);
-      e.key[i] = 1.25f * e.raw[i] / std::min(most, 0.3f);
-    }
+  const std::vector<float> most = largest_around(e.raw, patch.width, patch.height, 4);
+  for (std::size_t i = 0; i < n; ++i)
+    if (patch.region.in[i]) e.key[i] = 1.25f * e.raw[i] / std::clamp(most[i], 0.02f, 0.3f);
   e.raw = e.key;
   return e;
 }
@@ -106,7 +117,17 @@ void fill_holes(const Patch& patch, const Evidence& e, Mask& seeds) {
     if (rest.in[i] && !open[static_cast<std::size_t>(labels[i])]) seeds.in[i] = 1;
 }
 
-void find_seeds(const Patch& patch, const Evidence& e, Mask& seeds) {
+// A screen without a key says nothing of translucence: what stands out, two cells inside, is
+// opaque.
+void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
+  Mask strong(patch.width, patch.height);
+  for (std::size_t i = 0; i < strong.in.size(); ++i)
+    strong.in[i] = patch.core.in[i] && patch.contrast[i] > 2 * screen.threshold ? 1 : 0;
+  const Mask inside = erode(strong, 2);
+  for (std::size_t i = 0; i < inside.in.size(); ++i) seeds.in[i] |= inside.in[i];
+}
+
+void find_seeds(const ScreenModel& screen, const Patch& patch, const Evidence& e, Mask& seeds) {
   const std::size_t n = patch.cells();
   Mask sure(patch.width, patch.height);
   Mask likely(patch.width, patch.height);
@@ -116,6 +137,7 @@ void find_seeds(const Patch& patch, const Evidence& e, Mask& seeds) {
     likely.in[i] = patch.region.in[i] && score > 0.5f ? 1 : 0;
   }
   seeds = erode(erode(dilate(sure, 1), 1), 1);
+  if (screen.key < 0) add_inside(screen, patch, seeds);
   const Mask all_likely = erode(likely, 2);
   const auto depth = distance_to(patch.region, 0);
   for (std::size_t i = 0; i < n; ++i)
@@ -123,36 +145,88 @@ void find_seeds(const Patch& patch, const Evidence& e, Mask& seeds) {
   fill_holes(patch, e, seeds);
 }
 
-// Weighted sums of 1, the three channels and their six products, near (sigma 2 cells), wide (sigma
-// 9.5) and over the patch.
+// Weighted sums of 1, the three channels and their six products: near (sigma 2 cells), wide (sigma
+// about 10, kept in squares of four by four cells) and over the patch.
 struct Moments {
   static constexpr int kCount = 10;
+  static constexpr int kCoarse = 4;
   std::vector<float> near[kCount], wide[kCount];
-  double all[kCount] = {};
+  int wide_width = 0, wide_height = 0;
+  float all[kCount] = {};
 };
 
 void gather_moments(const Patch& patch, const std::vector<float>& weight,
                     const std::vector<float> (&color)[3], Moments& m) {
   const std::size_t n = patch.cells();
-  std::vector<float> scratch;
+  m.wide_width = (patch.width + Moments::kCoarse - 1) / Moments::kCoarse;
+  m.wide_height = (patch.height + Moments::kCoarse - 1) / Moments::kCoarse;
   for (auto& plane : m.near) plane.assign(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const float w = weight[i];
-    if (!(w > 0)) continue;
-    const float r = color[0][i];
-    const float g = color[1][i];
-    const float b = color[2][i];
-    const float value[Moments::kCount] = {1, r, g, b, r * r, r * g, r * b, g * g, g * b, b * b};
-    for (int k = 0; k < Moments::kCount; ++k) m.near[k][i] = w * value[k];
-  }
+  for (auto& plane : m.wide)
+    plane.assign(static_cast<std::size_t>(m.wide_width) * static_cast<std::size_t>(m.wide_height),
+                 0);
+  std::size_t i = 0;
+  for (int y = 0; y < patch.height; ++y)
+    for (int x = 0; x < patch.width; ++x, ++i) {
+      const float w = weight[i];
+      if (!(w > 0)) continue;
+      const float r = color[0][i];
+      const float g = color[1][i];
+      const float b = color[2][i];
+      const float value[Moments::kCount] = {1, r, g, b, r * r, r * g, r * b, g * g, g * b, b * b};
+      const std::size_t square =
+          static_cast<std::size_t>(y / Moments::kCoarse) * static_cast<std::size_t>(m.wide_width) +
+          static_cast<std::size_t>(x / Moments::kCoarse);
+      for (int k = 0; k < Moments::kCount; ++k) {
+        m.near[k][i] = w * value[k];
+        m.wide[k][square] += w * value[k] / (Moments::kCoarse * Moments::kCoarse);
+      }
+    }
+  std::vector<float> scratch;
   for (int k = 0; k < Moments::kCount; ++k) {
-    m.all[k] = 0;
-    for (const float value : m.near[k]) m.all[k] += static_cast<double>(value);
-    m.wide[k] = m.near[k];
+    double all = 0;
+    for (const float value : m.wide[k]) all += static_cast<double>(value);
+    m.all[k] = static_cast<float>(all);
     blur(m.near[k], patch.width, patch.height, 2, 2, scratch);
-    blur(m.wide[k], patch.width, patch.height, 9, 3, scratch);
+    blur(m.wide[k], m.wide_width, m.wide_height, 2, 3, scratch);
   }
 }
+
+// The four squares about a cell and their bilinear shares.
+struct Squares {
+  std::size_t at[4];
+  float share[4];
+
+  Squares(const Moments& m, int x, int y) {
+    const auto axis = [](int cell, int count, int& low, int& high, float& second) {
+      const int shifted = 2 * cell + 1 - Moments::kCoarse;  // half cells from the first middle
+      low = shifted < 0 ? 0 : shifted / (2 * Moments::kCoarse);
+      high = std::min(low + 1, count - 1);
+      second = shifted < 0 ? 0.0f
+                           : static_cast<float>(shifted % (2 * Moments::kCoarse)) /
+                                 static_cast<float>(2 * Moments::kCoarse);
+    };
+    int left = 0;
+    int right = 0;
+    int top = 0;
+    int low = 0;
+    float u = 0;
+    float v = 0;
+    axis(x, m.wide_width, left, right, u);
+    axis(y, m.wide_height, top, low, v);
+    const auto index = [&](int cx, int cy) {
+      return static_cast<std::size_t>(cy) * static_cast<std::size_t>(m.wide_width) +
+             static_cast<std::size_t>(cx);
+    };
+    at[0] = index(left, top);
+    at[1] = index(right, top);
+    at[2] = index(left, low);
+    at[3] = index(right, low);
+    share[0] = (1 - u) * (1 - v);
+    share[1] = u * (1 - v);
+    share[2] = (1 - u) * v;
+    share[3] = u * v;
+  }
+};
 
 struct Foreground {
   float mean[3];
@@ -160,10 +234,14 @@ struct Foreground {
 };
 
 Foreground foreground_at(const Patch& patch, const Moments& m, std::size_t i, float spill) {
+  const Squares squares(m, static_cast<int>(i % static_cast<std::size_t>(patch.width)),
+                        static_cast<int>(i / static_cast<std::size_t>(patch.width)));
   float sum[Moments::kCount];
-  for (int k = 0; k < Moments::kCount; ++k)
-    sum[k] =
-        m.near[k][i] + kFarWeight * m.wide[k][i] + kGlobalWeight * static_cast<float>(m.all[k]);
+  for (int k = 0; k < Moments::kCount; ++k) {
+    float wide = 0;
+    for (int s = 0; s < 4; ++s) wide += squares.share[s] * m.wide[k][squares.at[s]];
+    sum[k] = m.near[k][i] + kFarWeight * wide + kGlobalWeight * m.all[k];
+  }
   Foreground f{};
   if (!(sum[0] > 0)) return f;
   const float inverse = 1 / sum[0];
@@ -241,6 +319,11 @@ void solve_alpha(Patch& patch, const Moments& m, const Evidence& e, float spill,
       patch.alpha[i] = 0;
       continue;
     }
+    // The neighbourhood of the seeds themselves is asked for at the end only, by the despill.
+    if (patch.seeds.in[i] && residual) {
+      patch.alpha[i] = 1;
+      continue;
+    }
     const Foreground f = foreground_at(patch, m, i, spill);
     for (int p = 0; p < 3; ++p) patch.mean[p][i] = f.mean[p];
     patch.alpha[i] = patch.seeds.in[i]
@@ -291,8 +374,9 @@ void cut_patch(const ScreenModel& screen, const Silhouette& s, Patch& patch) {
   patch.top = std::max(s.top - kMargin, 0);
   patch.width = std::min(s.right + kMargin, s.grid.width) - patch.left;
   patch.height = std::min(s.bottom + kMargin, s.grid.height) - patch.top;
-  patch.region = Mask(patch.width, patch.height);
+  patch.core = Mask(patch.width, patch.height);
   const std::size_t n = patch.cells();
+  patch.contrast.resize(n);
   for (int p = 0; p < 3; ++p) {
     patch.frame[p].resize(n);
     patch.plate[p].resize(n);
@@ -313,7 +397,8 @@ void cut_patch(const ScreenModel& screen, const Silhouette& s, Patch& patch) {
                              static_cast<std::size_t>(x);
       const double u = scaled(gx, s.grid.width);
       const double v = scaled(gy, s.grid.height);
-      patch.region.in[to] = s.mask.in[from];
+      patch.core.in[to] = s.mask.in[from];
+      patch.contrast[to] = s.contrast[from];
       for (int p = 0; p < 3; ++p) {
         const int plane = 2 - p;  // B G R to R G B
         const int sum = s.grid.plane[plane][from];
@@ -332,12 +417,12 @@ void cut_patch(const ScreenModel& screen, const Silhouette& s, Patch& patch) {
         patch.noise[p][to] = codes * slope;
       }
     }
-  patch.region = dilate(patch.region, 2);
+  patch.region = dilate(patch.core, 2);
 }
 
 void unmix(const ScreenModel& screen, Patch& patch) {
   const Evidence evidence = gather_evidence(screen, patch);
-  find_seeds(patch, evidence, patch.seeds);
+  find_seeds(screen, patch, evidence, patch.seeds);
   const std::size_t n = patch.cells();
   std::vector<float> weight(n);
   std::vector<float> color[3];

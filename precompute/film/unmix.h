@@ -20,7 +20,9 @@ namespace vsprite::detail {
 /// The part of a frame that holds the subject. All maps are (height, width) cells.
 struct Patch {
   int left = 0, top = 0, width = 0, height = 0;  ///< cells, place in the grid
-  Mask region;                                   ///< where alpha may be above 0
+  Mask core;                                     ///< the silhouette
+  Mask region;                                   ///< where alpha may be above 0: two cells more
+  std::vector<float> contrast;                   ///< code values, as in Silhouette
   std::vector<float> frame[3], plate[3];         ///< C, B: linear R, G, B
   std::vector<float> noise[3];                   ///< sigma_n, linear
   Mask seeds;                                    ///< surely subject

@@ -4,5 +4,6 @@ target_sources(vsprite_precompute PRIVATE
   similarity/features.cpp
   similarity/label.cpp
   similarity/classifier.cpp
+  similarity/distance.cpp
   similarity/transitions.cpp
 )

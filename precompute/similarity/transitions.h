@@ -5,17 +5,17 @@
 //
 //     T_ij = (D_i,j-1 + D_i+1,j) / 2,   natural continuation 0,   rejected pairs gone
 //
-// j-1 and i+1 exist only inside one clip. A jump to the same or one of the 14 samples before it in a
-// clip is no transition (stutter). Kept is the largest strongly connected part.
+// j-1 and i+1 exist only inside one clip. A jump to the same or one of the 14 samples before it in
+// a clip is no transition (stutter). Kept is the largest strongly connected part: from each of its
+// samples every other one can be reached, so that no sprite ever freezes.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "similarity/classifier.h"
+#include "similarity/distance.h"
 #include "similarity/features.h"
 #include "vsprite/result.h"
 #include "vsprite/sprite.h"
@@ -23,15 +23,10 @@
 namespace vsprite {
 
 struct TransitionConfig {
-  int max_per_sample = 100;  ///< cheapest kept in a row; natural continuation always
-  int min_back = 15;         ///< shortest jump backwards inside a clip, samples
+  int max_per_sample = 100;  ///< cheapest kept in a row, >= 1; natural continuation always, and the
+                             ///< few more that the part needs to stay strongly connected
+  int min_back = 15;         ///< shortest jump backwards inside a clip, samples, >= 1
   int jobs = 0;              ///< threads, 0 = all; the result does not depend on it
-};
-
-/// An accepted pair, i < j, D <= 1.
-struct PairDistance {
-  std::uint32_t i = 0, j = 0;
-  float distance = 0;
 };
 
 /// Immediate costs, pruned. Sparse (N, N); a dropped sample has an empty row and no column.
@@ -42,21 +37,29 @@ struct CostTable {
 };
 
 struct TransitionStats {
-  std::uint64_t pairs = 0;      ///< considered: N (N - 1) / 2
-  std::uint64_t compared = 0;   ///< of these, pairs whose pixels were looked at
+  std::uint64_t pairs = 0;  ///< considered: N (N - 1) / 2
+  std::uint64_t compared =
+      0;  ///< of these, pairs whose pixels were looked at (the caller fills it in)
   std::uint64_t accepted = 0;
-  std::uint64_t transitions = 0;
-  int kept = 0, lost_clip_end = 0, lost_dead_end = 0, lost_unreachable = 0;
+  std::uint64_t transitions = 0;  ///< in the table, natural continuations among them
+  int kept = 0;
+  int lost_clip_end = 0;  ///< first or last sample of its clip: nothing before or after to compare
+  int lost_dead_end = 0;  ///< no way from here into the kept part
+  int lost_unreachable = 0;          ///< no way from the kept part to here
   std::vector<std::string> reasons;  ///< sentences for the report
 };
 
-/// Accepted pairs, ascending by (i, j): exactly those of the plain loop over all pairs.
-std::vector<PairDistance> accepted_pairs(const FeatureSet& set, const Classifier& classifier, int jobs,
-                                         std::uint64_t* compared = nullptr,
-                                         const std::function<void(double)>& progress = {});
-
-/// Errors: BadContent (no endless run of samples is left: says why and what to do).
+/// `pairs`: accepted pairs, ascending by (i, j).
+/// Errors: BadContent (no endless run of samples is left: says why and what to do), BadSetting.
 Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDistance> pairs,
                                   const TransitionConfig& config, TransitionStats& stats);
+
+/// For every sample the number of its strongly connected part of the graph, and their count. Parts
+/// are numbered so that a part comes after those that it leads to.
+struct Components {
+  std::vector<std::uint32_t> of;
+  std::uint32_t count = 0;
+};
+Components find_components(const CostTable& graph);
 
 }  // namespace vsprite

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: MIT
 #include "tool/settings.h"
 
+#define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 0
+#define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numeric>
+
+#include "film/plate.h"
 
 namespace vsprite {
 namespace {
@@ -138,6 +142,11 @@ constexpr std::string_view kSolve = " solve build play ";
 void add_stage_options(Row& t) {
   t.text("key", "KEY", &Settings::key,
          "background: auto, plate (standing camera), none, or #RRGGBB", kSegment);
+  t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
+    if (const auto parsed = parse_key(v); !parsed) return parsed.error();
+    s.key = v;
+    return {};
+  };
   t.whole("max-size", "PX", &Settings::max_size, 16, 4096,
           "longest side of the largest sprite picture, px", kSegment);
   t.real("smooth", "FRAMES", &Settings::smooth, 0, 8, false,
@@ -176,8 +185,9 @@ void add_use_options(Row& t) {
   t.text("what", "WHAT", &Settings::what, "which numbers", " dump ",
          "samples|labels|features|distances|transitions|values");
   t.text("format", "FORMAT", &Settings::format, "how they are written", " dump ", "csv|npy");
-  t.text("pair-file", "FILE", &Settings::pair_file,
-         "with --what features: pairs to compare, `i,j` a line", " dump ");
+  t.text("pairs", "FILE", &Settings::pair_file,
+         "with --what features: a file of pairs to compare, `i,j` a line", " dump ")
+      .in_config = false;
 }
 
 void add_common_options(Row& t) {

@@ -1,2 +1,38 @@
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
+
+# The work folder and its stages, in the library, so that tests reach them without the program.
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash)
+find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
+target_sources(vsprite_precompute PRIVATE
+  tool/build_pack.cpp
+  tool/files.cpp
+  tool/keyed.cpp
+  tool/pictures.cpp
+  tool/project.cpp
+  tool/report.cpp
+  tool/segment.cpp
+  tool/settings.cpp
+  tool/stages.cpp
+  tool/work_files.cpp
+)
+target_link_libraries(vsprite_precompute PUBLIC nlohmann_json::nlohmann_json PRIVATE PkgConfig::TOOL_DEPS)
+
+add_executable(vsprite
+  tool/main.cpp
+  tool/commands/build.cpp
+  tool/commands/console.cpp
+  tool/commands/doctor.cpp
+  tool/commands/dump.cpp
+  tool/commands/help.cpp
+  tool/commands/inspect.cpp
+  tool/commands/parse.cpp
+)
+target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)
+if(TARGET vsprite_window)
+  target_sources(vsprite PRIVATE tool/commands/play.cpp)
+  target_compile_definitions(vsprite PRIVATE VSPRITE_WINDOW)
+  target_link_libraries(vsprite PRIVATE vsprite_window)
+endif()

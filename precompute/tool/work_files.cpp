@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "tool/work_files.h"
 
+#define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 0
+#define TOML_ENABLE_FORMATTERS 0
 #include <toml++/toml.h>
 
 #include <algorithm>

@@ -14,16 +14,16 @@
 namespace vsprite {
 
 struct PlayOptions {
-  std::string mode{};          ///< name of a ControlMode; empty: the pack's first
+  std::string mode{};        ///< name of a ControlMode; empty: the pack's first
   bool headless = false;     ///< no display: draws into memory, one frame a tick
   std::uint64_t frames = 0;  ///< ticks until it ends; 0: until closed (headless: 300)
-  std::string keys{};        ///< key script or the name of a file with one; empty: the player's keys
-  std::string record{};      ///< film (.mp4) or picture of the last frame (.png); empty: nothing
+  std::string keys{};    ///< key script or the name of a file with one; empty: the player's keys
+  std::string record{};  ///< film (.mp4) or picture of the last frame (.png); empty: nothing
   std::string screenshot{};  ///< picture of the last frame (.png), beside a film; empty: nothing
-  std::uint64_t seed = 0;  ///< drives variety only
+  std::uint64_t seed = 0;    ///< drives variety only
   std::string title{};       ///< of the window; empty: the sprite's name
-  bool overlay = false;    ///< starts with the F1 overlay shown
-  int width = 1280;        ///< px
+  bool overlay = false;      ///< starts with the F1 overlay shown
+  int width = 1280;          ///< px
   int height = 720;
 };
 

@@ -104,8 +104,9 @@ inline Result<Sprite> load_bytes(std::span<const std::uint8_t> bytes) {
   return detail::load_pack_from(detail::ByteSource::borrow(bytes, "tiny.vsp"));
 }
 
-inline std::vector<PackIssue> verify_bytes(std::span<const std::uint8_t> bytes) {
-  return *detail::verify_pack_from(detail::ByteSource::borrow(bytes, "tiny.vsp"));
+inline std::vector<PackIssue> verify_bytes(std::span<const std::uint8_t> bytes,
+                                           std::size_t most = 1000) {
+  return *detail::verify_pack_from(detail::ByteSource::borrow(bytes, "tiny.vsp"), most);
 }
 
 }  // namespace vsprite::testing

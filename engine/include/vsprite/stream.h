@@ -31,8 +31,9 @@ class FrameCache {
   FrameCache(const FrameCache&) = delete;
   FrameCache& operator=(const FrameCache&) = delete;
 
-  /// The premultiplied picture, decoded if need be. Valid until the next call but one.
-  ImageView frame(std::uint32_t sample);
+  /// The premultiplied picture, decoded if need be; empty only if no good one was ever decoded.
+  /// Valid until the next call but one. Pre: sample < N.
+  ImageView frame(std::uint32_t sample) noexcept;
   const FrameCacheStats& stats() const noexcept;
 
  private:

@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "tool/build_pack.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "tool/stages.h"
+#include "vsprite/pack.h"
+
+namespace vsprite {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint16_t tag_index(std::vector<std::string>& tags, const std::string& tag) {
+  const auto found = std::find(tags.begin(), tags.end(), tag);
+  if (found != tags.end()) return static_cast<std::uint16_t>(found - tags.begin());
+  tags.push_back(tag);
+  return static_cast<std::uint16_t>(tags.size() - 1);
+}
+
+Sample make_sample(const SampleRow& row, const FilmFacts& film, bool kept) {
+  const double scale = row.scale;
+  Sample sample;
+  sample.anchor = {static_cast<float>((row.anchor_x - row.left) * scale),
+                   static_cast<float>((row.anchor_y - row.top) * scale)};
+  sample.velocity = {static_cast<float>(row.velocity_x * scale),
+                     static_cast<float>(row.velocity_y * scale)};
+  sample.step_x = step_per_tick(sample.velocity.x, film.fps_numerator, film.fps_denominator);
+  sample.step_y = step_per_tick(sample.velocity.y, film.fps_numerator, film.fps_denominator);
+  sample.area = static_cast<float>(row.area * scale * scale);
+  sample.scale = static_cast<float>(scale);
+  sample.width =
+      kept ? static_cast<std::uint16_t>(std::lround(row.width * scale)) : std::uint16_t{0};
+  sample.height =
+      kept ? static_cast<std::uint16_t>(std::lround(row.height * scale)) : std::uint16_t{0};
+  sample.duration = static_cast<std::uint16_t>(row.duration);
+  sample.clip = static_cast<std::uint32_t>(row.clip);
+  sample.frame = static_cast<std::uint32_t>(row.frame);
+  sample.mirror_of = row.mirror_of < 0 ? kNoSample : static_cast<std::uint32_t>(row.mirror_of);
+  sample.kept = kept ? 1 : 0;
+  return sample;
+}
+
+ControlMode make_paper_mode(const ValueFile& values) {
+  ControlMode mode;
+  mode.name = "paper";
+  mode.alpha = static_cast<float>(values.config.alpha);
+  mode.w1 = static_cast<float>(values.config.w1);
+  mode.cap = static_cast<float>(values.config.cap);
+  mode.stages = static_cast<std::uint32_t>(values.solution.stages);
+  for (std::size_t d = 0; d < kDirectionCount; ++d) mode.table_of[d] = static_cast<Direction>(d);
+  mode.served = (1u << kCompassCount) - 1;
+  mode.residual = values.solution.residual;
+  mode.error_bound = values.solution.error_bound;
+  mode.next = values.solution.next;
+  return mode;
+}
+
+float median_side(const std::vector<Sample>& samples, std::span<const int> body_sides) {
+  std::vector<int> sides;
+  for (std::size_t i = 0; i < samples.size() && i < body_sides.size(); ++i)
+    if (samples[i].kept == 1 && body_sides[i] > 0) sides.push_back(body_sides[i]);
+  if (sides.empty()) return 1;
+  std::sort(sides.begin(), sides.end());
+  const std::size_t half = sides.size() / 2;
+  const int sum = sides.size() % 2 == 1 ? 2 * sides[half] : sides[half - 1] + sides[half];
+  return static_cast<float>(sum) / 2;
+}
+
+int turns_between(int a, int b) {
+  const int around = std::abs(a - b);
+  return std::min(around, kCompassCount - around);
+}
+
+std::vector<int> measure_bodies(PictureReader& reader, std::size_t count, Result<void>& state) {
+  std::vector<int> sides;
+  for (std::size_t i = 0; i < count && state; ++i) {
+    const auto picture = reader.picture(static_cast<int>(i));
+    if (!picture)
+      state = picture.error();
+    else
+      sides.push_back(body_side(*picture));
+  }
+  return sides;
+}
+
+Json direction_json(const SpriteData& data, const DirectionReport& report, double v0) {
+  Json entry = {{"name", direction_name(report.direction)},
+                {"reachable", report.reachable},
+                {"tracking_error_deg", nullptr},
+                {"speed", report.speed}};
+  if (report.tracking_error_deg) entry["tracking_error_deg"] = *report.tracking_error_deg;
+  const std::string reason = unserved_reason(data, report, v0);
+  if (!reason.empty()) entry["reason"] = reason;
+  return entry;
+}
+
+}  // namespace
+
+Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<SampleRow>& rows,
+                                    const CostTable& costs, const ValueFile& values,
+                                    std::span<const int> body_sides) {
+  SpriteData data;
+  data.name = fs::path(film.name).stem().string();
+  data.fps_numerator = film.fps_numerator;
+  data.fps_denominator = film.fps_denominator;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    data.samples.push_back(make_sample(rows[i], film, costs.kept[i] == 1));
+    data.samples.back().tag = tag_index(data.tags, rows[i].tag);
+  }
+  const auto first = std::find(costs.kept.begin(), costs.kept.end(), std::uint8_t{1});
+  if (first == costs.kept.end())
+    return Error{ErrorCode::BadContent,
+                 film.name + ": no sample was kept: film longer, or label more pairs"};
+  data.start_sample = static_cast<std::uint32_t>(first - costs.kept.begin());
+  data.row_start = costs.row_start;
+  data.transitions = costs.transitions;
+  data.body_length = median_side(data.samples, body_sides);
+  data.modes.push_back(make_paper_mode(values));
+  return data;
+}
+
+void serve_directions(ControlMode& mode, const DirectionReports& reports) {
+  mode.served = 0;
+  for (std::size_t d = 0; d < kCompassCount; ++d)
+    if (reports[d].reachable) mode.served |= 1u << d;
+  const auto error_of = [&reports](int d) {
+    return reports[static_cast<std::size_t>(d)].tracking_error_deg.value_or(180);
+  };
+  for (int d = 0; d < kCompassCount; ++d) {
+    int best = -1;
+    for (int other = 0; other < kCompassCount; ++other) {
+      const int turns = turns_between(d, other);
+      if ((mode.served >> other & 1u) == 0 || turns > 1) continue;  // 2 x 45 degrees are over 60
+      const int best_turns = best < 0 ? kCompassCount : turns_between(d, best);
+      if (turns < best_turns || (turns == best_turns && error_of(other) < error_of(best)))
+        best = other;
+    }
+    mode.table_of[static_cast<std::size_t>(d)] =
+        best < 0 ? Direction::Rest : static_cast<Direction>(best);
+  }
+}
+
+std::string unserved_reason(const SpriteData& data, const DirectionReport& report, double v0) {
+  if (report.reachable) return {};
+  const Vec2 unit = unit_vector(report.direction);
+  int moving = 0, toward = 0, kept = 0;
+  for (const Sample& sample : data.samples) {
+    const double speed = std::sqrt(double{sample.velocity.x} * sample.velocity.x +
+                                   double{sample.velocity.y} * sample.velocity.y);
+    if (speed < v0 * double{sample.scale} || speed <= 0) continue;
+    ++moving;
+    const double along =
+        (double{sample.velocity.x} * unit.x + double{sample.velocity.y} * unit.y) / speed;
+    if (along < 0.7071) continue;
+    ++toward;
+    kept += sample.kept == 1;
+  }
+  const std::string way(direction_name(report.direction));
+  const auto frames = [](int n) {
+    return std::to_string(n) + (n == 1 ? " sample moves" : " samples move");
+  };
+  if (moving == 0) return "nothing in the film moves from its place";
+  if (toward == 0) return "the film never moves " + way + ": film some seconds of it";
+  if (kept == 0)
+    return frames(toward) +
+           " that way, but no smooth jump leads to them and back: film more ways in and out";
+  return frames(kept) +
+         " that way, too few to go on for long: film more of it, with turns into it and out of it";
+}
+
+Result<Json> write_pack(StageRun& run) {
+  const auto film = run.project.film();
+  if (!film) return film.error();
+  const auto rows = run.project.samples();
+  if (!rows) return rows.error();
+  const auto file = run.project.transitions(rows->size());
+  if (!file) return file.error();
+  const auto values = run.project.values(rows->size());
+  if (!values) return values.error();
+
+  PictureReader reader(run.project, *rows);
+  Result<void> state;
+  const std::vector<int> sides =
+      run.sprites ? run.sprites->body_sides : measure_bodies(reader, rows->size(), state);
+  if (!state) return state.error();
+  auto data = make_sprite_data(*film, *rows, file->costs, *values, sides);
+  if (!data) return data.error();
+
+  const auto trial = make_sprite(*data);
+  if (!trial) return trial.error();
+  const DirectionReports reports = measure_directions(*trial, 0, run.settings.seed);
+  serve_directions(data->modes.front(), reports);
+
+  PictureReader pictures(run.project, *rows);
+  const double count = static_cast<double>(rows->size());
+  const FrameSource source = [&](std::uint32_t sample) {
+    if (run.listener.progress) run.listener.progress(sample / count);
+    return pictures.picture(static_cast<int>(sample));
+  };
+  if (auto saved = save_pack(run.pack, *data, source); !saved) return saved.error();
+
+  std::error_code error;
+  Json directions = Json::array();
+  for (const DirectionReport& report : reports)
+    directions.push_back(direction_json(*data, report, file->v0));
+  const double bytes = static_cast<double>(fs::file_size(run.pack, error));
+  return Json{{"pack_bytes", static_cast<std::uint64_t>(bytes)},
+              {"body_length", data->body_length},
+              {"directions", directions}};
+}
+
+}  // namespace vsprite

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// tool/build_pack.h - from the stages' tables to the data of a pack, and which directions it
+// serves.
+//
+// Lengths change from film pixels to sprite pixels here: anchors, velocities and areas are
+// multiplied by the sample's scale. A direction is served where the engine's own actor was measured
+// to travel it.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "control/response.h"
+#include "tool/project.h"
+#include "vsprite/sprite.h"
+
+namespace vsprite {
+
+/// All directions stand as served until serve_directions() has been told otherwise.
+/// `body_sides`: (N) px, longer side of each picture's alpha >= 128 box.
+/// Errors: BadContent (no sample was kept).
+Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<SampleRow>& rows,
+                                    const CostTable& costs, const ValueFile& values,
+                                    std::span<const int> body_sides);
+
+using DirectionReports = std::array<DirectionReport, kCompassCount>;
+
+/// Fills `served` and `table_of`: a command that cannot be travelled goes to the nearest served
+/// direction within 60 degrees (the better tracked of two), else to Rest.
+void serve_directions(ControlMode& mode, const DirectionReports& reports);
+
+/// Why a direction cannot be travelled, and what to film; empty where it can.
+std::string unserved_reason(const SpriteData& data, const DirectionReport& report, double v0);
+
+}  // namespace vsprite

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// build and its five stages.
+#include <filesystem>
+
+#include "tool/commands/verbs.h"
+#include "tool/report.h"
+
+namespace vsprite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kSegment = 0, kPack = 4;
+
+/// Where a run reads and writes.
+struct Places {
+  std::string film, work, pack;
+};
+
+Result<Places> find_places(const Settings& settings, int first) {
+  const bool needs_film = first == kSegment;
+  const std::string& operand = settings.film;
+  std::error_code error;
+  if (operand.empty() && (needs_film || settings.work.empty()))
+    return Error{ErrorCode::BadSetting, needs_film
+                                            ? "a film is due: `vsprite build FILM`"
+                                            : "a work folder is due: FILM, PACK or --work DIR"};
+  if (needs_film && (fs::is_directory(operand, error) || fs::path(operand).extension() == ".vsp"))
+    return Error{ErrorCode::BadFormat,
+                 operand + ": no film: name the film that the sprite was made from"};
+  if (needs_film && !fs::exists(operand, error))
+    return Error{ErrorCode::NotFound, operand + ": no such file"};
+  const std::string work = find_work_folder(settings.work, operand, settings.output);
+  return Places{needs_film ? operand : "", work, find_pack_path(work, operand, settings.output)};
+}
+
+Result<std::vector<StageOutcome>> run_range(const Places& places, const Settings& settings,
+                                            Console& console, int first, int last) {
+  auto project = Project::open(places.work, first == kSegment);
+  if (!project) return project.error();
+  if (last == kPack) {
+    const fs::path pack(places.pack);
+    const std::string folder = pack.parent_path().string();
+    remove_stale_temporaries(folder.empty() ? "." : folder, pack.filename().string() + ".tmp.");
+  }
+  StageRun run{*project, settings, places.film, places.pack, console.listener()};
+  return run_stages(run, first, last);
+}
+
+Result<int> run_one(const Settings& settings, Console& console, int stage) {
+  const auto places = find_places(settings, stage);
+  if (!places) return places.error();
+  const auto outcomes = run_range(*places, settings, console, stage, stage);
+  if (!outcomes) return outcomes.error();
+  console.text(build_text(*outcomes));
+  console.document(build_json(*outcomes));
+  if (stage == kPack)
+    console.next("vsprite play " + shell_word(places->pack));
+  else
+    console.next("vsprite " + std::string(kStages[stage + 1]) + " --work " +
+                 shell_word(places->work));
+  return 0;
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-./+:,@%") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+Result<int> run_segment(const Settings& s, Console& c) { return run_one(s, c, 0); }
+Result<int> run_train(const Settings& s, Console& c) { return run_one(s, c, 1); }
+Result<int> run_transitions(const Settings& s, Console& c) { return run_one(s, c, 2); }
+Result<int> run_solve(const Settings& s, Console& c) { return run_one(s, c, 3); }
+Result<int> run_pack(const Settings& s, Console& c) { return run_one(s, c, kPack); }
+
+Result<int> run_build(const Settings& settings, Console& console) {
+  const auto places = find_places(settings, kSegment);
+  if (!places) return places.error();
+  const auto outcomes = run_range(*places, settings, console, kSegment, kPack);
+  if (!outcomes) return outcomes.error();
+  console.text(places->film + " -> " + places->pack + "\n\n" + build_text(*outcomes) + "\n");
+  console.document(build_json(*outcomes));
+  console.next("vsprite play " + shell_word(places->pack));
+  return 0;
+}
+
+}  // namespace vsprite

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// info, validate and steer: what a pack holds, whether it is whole, how it answers.
+#include <cmath>
+#include <filesystem>
+
+#include "control/response.h"
+#include "tool/commands/verbs.h"
+#include "tool/report.h"
+#include "vsprite/pack.h"
+
+namespace vsprite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDefaultSeconds = 12;
+
+Result<Sprite> load_operand(const Settings& settings) {
+  if (settings.film.empty()) return Error{ErrorCode::BadSetting, "a pack is due: PACK.vsp"};
+  return load_pack(settings.film);
+}
+
+Result<KeyScript> script_of(const Settings& settings, double fps, std::uint64_t frames) {
+  // Without a script: another direction every second or two, from the seed.
+  if (settings.keys.empty())
+    return random_script(static_cast<double>(frames) / fps, 1, 2, fps, settings.seed);
+  auto script = load_key_script(settings.keys, fps);
+  std::error_code error;
+  if (!script && fs::is_regular_file(settings.keys, error))
+    return Error{ErrorCode::BadContent, settings.keys + ": " + script.error().message};
+  return script;
+}
+
+}  // namespace
+
+Result<int> run_info(const Settings& settings, Console& console) {
+  const auto sprite = load_operand(settings);
+  if (!sprite) return sprite.error();
+  const auto info = read_pack_info(settings.film);
+  if (!info) return info.error();
+  console.text(info_text(settings.film, *sprite, *info));
+  console.document(info_json(*sprite, *info));
+  console.next("vsprite play " + shell_word(settings.film));
+  return 0;
+}
+
+Result<int> run_validate(const Settings& settings, Console& console) {
+  if (settings.film.empty()) return Error{ErrorCode::BadSetting, "a pack is due: PACK.vsp"};
+  const auto issues = verify_pack(settings.film);
+  if (!issues) return issues.error();
+  std::string text, first_error;
+  Json list = Json::array();
+  for (const PackIssue& issue : *issues) {
+    if (issue.severity == "error" && first_error.empty()) first_error = issue.code;
+    text += issue.severity + ": " +
+            (issue.section.empty() ? std::string("header") : issue.section) + " at byte " +
+            std::to_string(issue.offset) + ": " + issue.message + "\n";
+    list.push_back({{"code", issue.code},
+                    {"severity", issue.severity},
+                    {"section", issue.section},
+                    {"offset", issue.offset},
+                    {"message", issue.message}});
+  }
+  console.remark(first_error.empty() ? "next: vsprite steer " + shell_word(settings.film)
+                                     : "next: vsprite pack makes it anew from its work folder");
+  console.text(text + (first_error.empty() ? "OK" : "INVALID: " + first_error) + "\n");
+  console.document({{"valid", first_error.empty()}, {"issues", list}});
+  return first_error.empty() ? 0 : 3;
+}
+
+Result<int> run_steer(const Settings& settings, Console& console) {
+  const auto sprite = load_operand(settings);
+  if (!sprite) return sprite.error();
+  const int mode = sprite->find_mode(settings.mode);
+  if (mode < 0)
+    return Error{ErrorCode::BadContent, settings.film + ": it holds no mode `" + settings.mode +
+                                            "`: use --mode " + sprite->data().modes.front().name};
+  const std::uint64_t frames =
+      settings.frames > 0 ? static_cast<std::uint64_t>(settings.frames)
+                          : static_cast<std::uint64_t>(std::ceil(kDefaultSeconds * sprite->fps()));
+  const auto script = script_of(settings, sprite->fps(), frames);
+  if (!script) return script.error();
+  std::vector<TraceRow> trace;
+  const SteerReport report = measure_steering(*sprite, mode, *script, frames, settings.seed,
+                                              settings.trace.empty() ? nullptr : &trace);
+  if (!settings.trace.empty())
+    if (auto wrote = write_file(settings.trace, trace_csv(trace)); !wrote) return wrote.error();
+  console.text(steer_text(report, sprite->fps()));
+  console.document(steer_json(report));
+  console.next("vsprite play " + shell_word(settings.film));
+  return 0;
+}
+
+}  // namespace vsprite

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "tool/keyed.h"
+
+#include <zstd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace vsprite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kChunkMagic = 0x31444559454B5356;  // "VSKEYED1"
+constexpr int kLevel = 1;  // the files live for a minute: speed, not size
+
+void put_compressed(ByteWriter& writer, const std::vector<std::uint8_t>& bytes) {
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size =
+      ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kLevel);
+  packed.resize(ZSTD_isError(size) ? 0 : size);
+  writer.put(std::uint64_t{packed.size()});
+  writer.put_array(std::span<const char>(packed));
+}
+
+bool get_compressed(ByteReader& reader, std::vector<std::uint8_t>& bytes, std::size_t size) {
+  std::uint64_t packed_size = 0;
+  if (!reader.get(packed_size) || packed_size > reader.left()) return false;
+  const std::string_view packed = reader.take(packed_size);
+  bytes.resize(size);
+  return ZSTD_decompress(bytes.data(), size, packed.data(), packed.size()) == size;
+}
+
+bool get_keyed(ByteReader& reader, KeyedFrame& frame) {
+  std::uint32_t blobs = 0;
+  if (!reader.get(frame.index) || !reader.get(frame.crop) || !reader.get(frame.difference) ||
+      !reader.get(blobs) || !reader.get_array(frame.blobs, blobs))
+    return false;
+  const auto pixels =
+      static_cast<std::size_t>(frame.crop.width) * static_cast<std::size_t>(frame.crop.height);
+  frame.straight.width = frame.crop.width;
+  frame.straight.height = frame.crop.height;
+  return get_compressed(reader, frame.straight.rgba, 4 * pixels) &&
+         get_compressed(reader, frame.labels, pixels);
+}
+
+std::string chunk_name(int chunk) {
+  std::string digits = std::to_string(chunk);
+  if (digits.size() < 6) digits.insert(0, 6 - digits.size(), '0');
+  return "/" + digits + ".bin";
+}
+
+}  // namespace
+
+FrameSummary summary_of(const KeyedFrame& frame) {
+  return {.index = frame.index, .blobs = frame.blobs, .difference = frame.difference};
+}
+
+std::string pack_keyed(const KeyedFrame& frame) {
+  ByteWriter writer;
+  writer.put(frame.index);
+  writer.put(frame.crop);
+  writer.put(frame.difference);
+  writer.put(static_cast<std::uint32_t>(frame.blobs.size()));
+  writer.put_array(std::span<const Blob>(frame.blobs));
+  put_compressed(writer, frame.straight.rgba);
+  put_compressed(writer, frame.labels);
+  return std::move(writer).take();
+}
+
+Result<KeyedStore> KeyedStore::open(const Project& project, const std::string& origin) {
+  KeyedStore store;
+  store.folder_ = project.path("keyed");
+  const auto stands = read_file(store.folder_ + "/origin");
+  if (!stands || *stands != origin) store.remove();
+  if (auto made = make_folder(store.folder_); !made) return made.error();
+  if (auto wrote = write_file(store.folder_ + "/origin", origin); !wrote) return wrote.error();
+  return store;
+}
+
+std::optional<std::vector<KeyedFrame>> KeyedStore::read(int chunk) const {
+  const auto bytes = read_file(folder_ + chunk_name(chunk));
+  constexpr std::size_t kSum = 8;
+  if (!bytes || bytes->size() < 16 + kSum) return std::nullopt;
+  const std::string_view body = std::string_view(*bytes).substr(0, bytes->size() - kSum);
+  std::uint64_t sum = 0, magic = 0, count = 0;
+  ByteReader(std::string_view(*bytes).substr(body.size())).get(sum);
+  ByteReader reader(body);
+  if (hash_bytes(body) != sum || !reader.get(magic) || magic != kChunkMagic || !reader.get(count) ||
+      count > kChunkFrames)
+    return std::nullopt;
+  std::vector<KeyedFrame> frames(static_cast<std::size_t>(count));
+  for (KeyedFrame& frame : frames)
+    if (!get_keyed(reader, frame)) return std::nullopt;
+  return frames;
+}
+
+Result<void> KeyedStore::write(int chunk, const std::vector<std::string>& frames) const {
+  ByteWriter writer;
+  writer.put(kChunkMagic);
+  writer.put(std::uint64_t{frames.size()});
+  for (const std::string& frame : frames) writer.put_array(std::span<const char>(frame));
+  writer.put(hash_bytes(writer.bytes()));
+  return write_file(folder_ + chunk_name(chunk), writer.bytes());
+}
+
+Result<bool> KeyedStore::resume_cutting(const std::string& extraction,
+                                        const std::function<Result<void>()>& clear) const {
+  const std::string note = folder_ + "/cutting";
+  const auto stands = read_file(note);
+  if (stands && *stands == extraction) return true;
+  if (auto cleared = clear(); !cleared) return cleared.error();
+  if (auto wrote = write_file(note, extraction); !wrote) return wrote.error();
+  return false;
+}
+
+void KeyedStore::remove() const {
+  // The note of their origin goes last, so that a half-removed store is still known for what it is.
+  std::error_code ignored;
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored)) names.push_back(entry.path());
+  for (const fs::path& name : names)
+    if (name.filename() != "origin") fs::remove_all(name, ignored);
+  fs::remove_all(folder_, ignored);
+}
+
+}  // namespace vsprite

@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "tool/stages.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "similarity/label.h"
+
+namespace vsprite {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Everything about one stage, so that run_stages needs no special cases.
+struct Stage {
+  Result<StageKey> (*key)(StageRun&);
+  Result<Json> (*work)(StageRun&);
+  /// Sum of what it made, as it stands now.
+  Result<std::string> (*output)(StageRun&);
+  /// A person may have edited what it made: it then stands, and is never overwritten unasked.
+  bool editable;
+};
+
+// ---- sums of inputs ----
+
+Result<Json> sums(StageRun& run, std::initializer_list<const char*> names) {
+  Json inputs = Json::object();
+  for (const char* name : names) {
+    const bool sprites = std::string_view(name) == "sprites";
+    if (sprites && run.sprites_sum) {
+      inputs[name] = *run.sprites_sum;
+      continue;
+    }
+    const auto sum = sprites ? run.project.sprites_sum() : run.project.file_sum(name);
+    if (!sum) return sum.error();
+    if (sprites) run.sprites_sum = *sum;
+    inputs[name] = *sum;
+  }
+  return inputs;
+}
+
+Result<StageKey> key_of(StageRun& run, const char* stage, Json settings,
+                        std::initializer_list<const char*> inputs) {
+  auto found = sums(run, inputs);
+  if (!found) return found.error();
+  return StageKey{stage, std::move(settings), std::move(*found)};
+}
+
+Result<LoadedSprites*> sprites_of(StageRun& run) {
+  if (!run.sprites) {
+    auto loaded = load_sprites(run.project);
+    if (!loaded) return loaded.error();
+    run.sprites = std::move(*loaded);
+  }
+  return &*run.sprites;
+}
+
+// ---- segment ----
+
+Result<StageKey> segment_key(StageRun& run) {
+  const auto sum = hash_file(run.film);
+  if (!sum) return sum.error();
+  const Settings& s = run.settings;
+  return StageKey{
+      "segment",
+      {{"key", s.key}, {"max-size", s.max_size}, {"smooth", s.smooth}, {"min-clip", s.min_clip}},
+      {{"film", hex64(*sum)}}};
+}
+
+Result<Json> segment(StageRun& run) {
+  run.sprites.reset();
+  run.sprites_sum.reset();
+  const auto key = segment_key(run);
+  if (!key) return key.error();
+  const Json origin = {
+      {"tool", kToolVersion}, {"settings", key->settings}, {"inputs", key->inputs}};
+  return segment_film(run, hex64(hash_bytes(origin.dump())));
+}
+
+Result<std::string> segment_output(StageRun& run) { return run.project.sprites_sum(); }
+
+// ---- train ----
+
+Result<StageKey> train_key(StageRun& run) {
+  const Settings& s = run.settings;
+  return key_of(run, "train",
+                {{"pairs", s.pairs},
+                 {"folds", s.folds},
+                 {"false-accept-cost", s.false_accept_cost},
+                 {"seed", s.seed}},
+                {"sprites"});
+}
+
+Result<Json> train_classifier(StageRun& run) {
+  const auto sprites = sprites_of(run);
+  if (!sprites) return sprites.error();
+  const FeatureSet& set = (*sprites)->features;
+  const std::vector<Label> labels = bootstrap_labels(set, run.settings.pairs, run.settings.seed);
+  TrainConfig config;
+  config.folds = run.settings.folds;
+  config.false_accept_cost = run.settings.false_accept_cost;
+  const auto training = train(set, labels, config);
+  if (!training) return training.error();
+  if (auto wrote = write_file(run.project.path("classifier.toml"), format_classifier(*training));
+      !wrote)
+    return wrote.error();
+  int acceptable = 0, by_person = 0;
+  for (const Label& label : labels) acceptable += label.acceptable, by_person += label.by_person;
+  Json weights = Json::object();
+  for (std::size_t k = 0; k < kFeatureCount; ++k)
+    weights[kFeatureNames[k]] = training->classifier.weights[k];
+  const Confusion& held = training->held_out;
+  return Json{{"labels", labels.size()},
+              {"acceptable", acceptable},
+              {"by_person", by_person},
+              {"threshold", training->classifier.threshold},
+              {"weights", weights},
+              {"confusion",
+               {{"true_accept", held.true_accept},
+                {"false_accept", held.false_accept},
+                {"true_reject", held.true_reject},
+                {"false_reject", held.false_reject}}}};
+}
+
+Result<std::string> train_output(StageRun& run) { return run.project.file_sum("classifier.toml"); }
+
+// ---- transitions ----
+
+Result<StageKey> transitions_key(StageRun& run) {
+  const auto present = run.project.classifier();  // also tells a damaged file from an absent one
+  if (!present) return present.error();
+  return key_of(
+      run, "transitions",
+      {{"max-per-sample", run.settings.max_per_sample}, {"min-back", run.settings.min_back}},
+      {"sprites", "classifier.toml"});
+}
+
+Result<Json> find_transitions(StageRun& run) {
+  const auto classifier = run.project.classifier();
+  if (!classifier) return classifier.error();
+  const auto sprites = sprites_of(run);
+  if (!sprites) return sprites.error();
+  const FeatureSet& set = (*sprites)->features;
+  TransitionFile file;
+  TransitionStats stats;
+  file.v0 = set.v0;
+  file.pairs =
+      accepted_pairs(set, *classifier, run.settings.jobs, &stats.compared, run.listener.progress);
+  TransitionConfig config;
+  config.max_per_sample = run.settings.max_per_sample;
+  config.min_back = run.settings.min_back;
+  config.jobs = run.settings.jobs;
+  auto costs = make_cost_table(set, file.pairs, config, stats);
+  if (!costs) return Error{costs.error().code, run.project.folder() + ": " + costs.error().message};
+  file.costs = std::move(*costs);
+  if (auto wrote = write_file(run.project.path("transitions.bin"), format_transitions(file));
+      !wrote)
+    return wrote.error();
+  return Json{{"pairs", stats.pairs},
+              {"compared", stats.compared},
+              {"accepted", stats.accepted},
+              {"transitions", stats.transitions},
+              {"kept", stats.kept},
+              {"lost_clip_end", stats.lost_clip_end},
+              {"lost_dead_end", stats.lost_dead_end},
+              {"lost_unreachable", stats.lost_unreachable},
+              {"reasons", stats.reasons}};
+}
+
+Result<std::string> transitions_output(StageRun& run) {
+  return run.project.file_sum("transitions.bin");
+}
+
+// ---- solve ----
+
+Result<StageKey> solve_key(StageRun& run) {
+  const Settings& s = run.settings;
+  const auto samples = run.project.samples();
+  if (!samples) return samples.error();
+  const auto present = run.project.transitions(samples->size());
+  if (!present) return present.error();
+  return key_of(run, "solve",
+                {{"alpha", s.alpha}, {"w1", s.w1}, {"cap", s.cap}, {"free-steps", s.free_steps}},
+                {"samples.csv", "transitions.bin"});
+}
+
+Result<Json> solve_tables(StageRun& run) {
+  const auto rows = run.project.samples();
+  if (!rows) return rows.error();
+  const auto file = run.project.transitions(rows->size());
+  if (!file) return file.error();
+  std::vector<Vec2> velocities;
+  for (const SampleRow& row : *rows)
+    velocities.push_back({static_cast<float>(row.velocity_x), static_cast<float>(row.velocity_y)});
+  ValueFile values;
+  values.config = {.alpha = run.settings.alpha,
+                   .w1 = run.settings.w1,
+                   .cap = run.settings.cap,
+                   .free_steps = run.settings.free_steps};
+  auto solution = solve(file->costs, velocities, file->v0, values.config);
+  if (!solution) return solution.error();
+  values.solution = std::move(*solution);
+  if (auto wrote = write_file(run.project.path("values.bin"), format_values(values)); !wrote)
+    return wrote.error();
+  return Json{{"alpha", values.config.alpha},
+              {"w1", values.config.w1},
+              {"cap", values.config.cap},
+              {"free_steps", values.config.free_steps},
+              {"tables", kDirectionCount * values.solution.stages},
+              {"residual", values.solution.residual},
+              {"error_bound", values.solution.error_bound}};
+}
+
+Result<std::string> solve_output(StageRun& run) { return run.project.file_sum("values.bin"); }
+
+// ---- pack ----
+
+Result<StageKey> pack_key(StageRun& run) {
+  const auto samples = run.project.samples();
+  if (!samples) return samples.error();
+  const auto present = run.project.values(samples->size());
+  if (!present) return present.error();
+  return key_of(run, "pack", {{"seed", run.settings.seed}},
+                {"sprites", "transitions.bin", "values.bin"});
+}
+
+Result<std::string> pack_output(StageRun& run) {
+  const auto sum = hash_file(run.pack);
+  if (!sum) return sum.error();
+  return hex64(*sum);
+}
+
+constexpr Stage kTable[] = {
+    {segment_key, segment, segment_output, true},
+    {train_key, train_classifier, train_output, true},
+    {transitions_key, find_transitions, transitions_output, false},
+    {solve_key, solve_tables, solve_output, false},
+    {pack_key, write_pack, pack_output, false},
+};
+
+// ---- running ----
+
+bool forced(const Settings& settings, const std::string& stage) {
+  for (const std::string& name : settings.force)
+    if (name == stage || name == "all") return true;
+  return false;
+}
+
+/// Whether the stage has to run. An edited result stands as long as nothing else asks for the
+/// stage.
+Result<bool> is_due(StageRun& run, const Stage& stage, const StageKey& key) {
+  if (forced(run.settings, key.name)) return true;
+  const Json* record = run.project.record(key.name);
+  if (record == nullptr) return true;
+  const auto output = stage.output(run);
+  const bool as_made = output && record->value("output", Json()) == *output;
+  if (run.project.is_current(key)) {
+    if (as_made || (output && stage.editable)) return false;
+    if (stage.editable) return output.error();  // a file of it is missing or damaged: named
+    if (output && run.listener.note)
+      run.listener.note("what it made has changed since: made again");
+    return true;
+  }
+  if (output && !as_made && stage.editable)
+    return Error{
+        ErrorCode::BadContent,
+        run.project.folder() + ": what `" + key.name +
+            "` made was edited by hand, and now its input or settings have changed: --force " +
+            key.name + " makes it anew and loses the edits"};
+  return true;
+}
+
+/// The high-water mark of this process, counted from here on where the kernel allows it.
+void reset_peak_memory() {
+  if (std::FILE* file = std::fopen("/proc/self/clear_refs", "w")) {
+    std::fputs("5", file);
+    std::fclose(file);
+  }
+}
+
+double peak_memory_mb() {
+  if (std::FILE* file = std::fopen("/proc/self/status", "r")) {
+    char line[256];
+    long kilobytes = 0;
+    while (std::fgets(line, sizeof line, file) != nullptr)
+      if (std::strncmp(line, "VmHWM:", 6) == 0) kilobytes = std::atol(line + 6);
+    std::fclose(file);
+    if (kilobytes > 0) return static_cast<double>(kilobytes) / 1024;
+  }
+  struct rusage usage {};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+Result<StageOutcome> run_stage(StageRun& run, int index) {
+  const Stage& stage = kTable[index];
+  StageOutcome outcome;
+  outcome.name = kStages[index];
+  reset_peak_memory();
+  const auto begin = std::chrono::steady_clock::now();
+  const auto key = stage.key(run);
+  if (!key) return key.error();
+  const auto due = is_due(run, stage, *key);
+  if (!due) return due.error();
+  outcome.skipped = !*due;
+  if (*due) {
+    if (auto begun = run.project.begin_stage(outcome.name); !begun) return begun.error();
+    auto result = stage.work(run);
+    if (!result) return result.error();
+    const auto output = stage.output(run);
+    if (!output) return output.error();
+    if (auto done = run.project.finish_stage(*key, *output, *result); !done) return done.error();
+  }
+  if (const Json* record = run.project.record(outcome.name))
+    outcome.result = record->value("result", Json::object());
+  outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  outcome.peak_rss_mb = peak_memory_mb();
+  return outcome;
+}
+
+}  // namespace
+
+int stage_index(std::string_view name) {
+  int index = 0;
+  while (name != kStages[index]) ++index;
+  return index;
+}
+
+Result<std::vector<StageOutcome>> run_stages(StageRun& run, int first, int last) {
+  std::vector<StageOutcome> outcomes;
+  for (int index = first; index <= last; ++index) {
+    if (run.listener.begin) run.listener.begin(kStages[index]);
+    auto outcome = run_stage(run, index);
+    if (!outcome) return outcome.error();
+    if (run.listener.end) run.listener.end(kStages[index], outcome->skipped);
+    outcomes.push_back(std::move(*outcome));
+    // What a finished segmentation kept for its own resumption is of no use any more.
+    std::error_code ignored;
+    if (index == 0) fs::remove_all(run.project.path("keyed"), ignored);
+  }
+  return outcomes;
+}
+
+}  // namespace vsprite

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// tool/stages.h - the five stages over a work folder: run, or skipped because nothing has changed.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tool/pictures.h"
+#include "tool/project.h"
+#include "tool/settings.h"
+
+namespace vsprite {
+
+/// Where a stage reports to; all may be empty.
+struct StageListener {
+  std::function<void(const std::string& stage)> begin;
+  std::function<void(double fraction)> progress;  ///< 0..1, from one thread at a time
+  std::function<void(const std::string& text)> note;
+  std::function<void(const std::string& stage, bool skipped)> end;
+};
+
+/// One stage's line in the report.
+struct StageOutcome {
+  std::string name;
+  double seconds = 0;
+  double peak_rss_mb = 0;
+  bool skipped = false;
+  Json result = Json::object();  ///< its figures, also where it was skipped
+};
+
+/// What a run works on. `film` is empty where the film is not at hand: segment must then be
+/// current.
+struct StageRun {
+  Project& project;
+  const Settings& settings;
+  std::string film;
+  std::string pack;
+  StageListener listener;
+  std::optional<LoadedSprites> sprites = {};    ///< read once, used by several stages
+  std::optional<std::string> sprites_sum = {};  ///< likewise
+};
+
+/// Runs the stages `first`..`last` of kStages, by index. Stops at the first error: everything that
+/// earlier stages made still stands.
+Result<std::vector<StageOutcome>> run_stages(StageRun& run, int first, int last);
+/// Index into kStages. Pre: it is one of them.
+int stage_index(std::string_view name);
+
+/// film -> sprites/*.png, samples.csv, contact.png (segment.cpp). `origin`: sum over film and
+/// settings.
+Result<Json> segment_film(StageRun& run, const std::string& origin);
+
+/// T, V and pictures -> the pack (build_pack.h), measured on the way.
+Result<Json> write_pack(StageRun& run);
+
+}  // namespace vsprite

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "vsprite/actor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "support/tiny_sprite.h"
+#include "vsprite/policy.h"
+
+namespace vsprite {
+namespace {
+
+using testing::tiny_heading;
+using testing::tiny_sample;
+
+TEST(Actor, StartsAtTheStartSampleWithoutACommand) {
+  const Sprite sprite = testing::tiny_sprite();
+  const Actor actor = make_actor(sprite, {3.5f, -2}, 9);
+  EXPECT_EQ(actor.position, to_position({3.5f, -2}));
+  EXPECT_EQ(actor.sample, 1u);
+  EXPECT_EQ(actor.direction, Direction::None);
+  EXPECT_EQ(actor.table, 8 * 6);
+  EXPECT_EQ(actor.shown, 1);
+  EXPECT_EQ(actor.random, 9u);
+}
+
+TEST(Actor, NaturalPlaybackReproducesTheFilmedDisplacement) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite);
+  // 11 samples of the first clip, one of them shown for two ticks: 12 ticks of 2 px.
+  for (int tick = 0; tick < 12; ++tick) {
+    step(sprite, actor);
+    EXPECT_EQ(actor.jumped, 0);
+    EXPECT_EQ(actor.position.x, (tick + 1) * 2 * kFixedOne);
+  }
+  EXPECT_EQ(actor.sample, tiny_sample(0, 11));
+}
+
+TEST(Actor, ASampleIsShownForItsDuration) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite);
+  std::vector<std::uint32_t> shown;
+  for (int tick = 0; tick < 5; ++tick) {
+    step(sprite, actor);
+    shown.push_back(actor.sample);
+  }
+  EXPECT_EQ(shown, (std::vector<std::uint32_t>{2, 3, 3, 4, 5}));  // sample 3 lasts two ticks
+}
+
+TEST(Actor, MovesByTheSampleThatWasShownSoThatDrawingNeverJumps) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite);
+  std::mt19937 random(3);
+  for (int tick = 0; tick < 2000; ++tick) {
+    set_direction(sprite, actor, static_cast<Direction>(random() % kDirectionCount));
+    const Vec2 before = draw_position(sprite, actor, 1.0f);
+    step(sprite, actor);
+    const Vec2 after = draw_position(sprite, actor, 0.0f);
+    ASSERT_NEAR(before.x, after.x, 1e-3);
+    ASSERT_NEAR(before.y, after.y, 1e-3);
+  }
+}
+
+TEST(Actor, EntersTheSwitchingChainAtKAndLeavesItOneStageASample) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite);
+  set_direction(sprite, actor, Direction::Down);
+  EXPECT_EQ(actor.stage, 5);
+  for (int due : {5, 4, 4, 3, 2, 1, 0, 0, 0}) {  // the third tick is the second of a long sample
+    step(sprite, actor);
+    EXPECT_EQ(actor.table, 2 * 6 + due) << "tick " << actor.tick;
+  }
+}
+
+TEST(Actor, TheSameCommandAgainRestartsNothing) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite), other = actor;
+  set_direction(sprite, actor, Direction::LeftUp);
+  set_direction(sprite, other, Direction::LeftUp);
+  for (int tick = 0; tick < 100; ++tick) {
+    set_direction(sprite, actor, Direction::LeftUp);
+    step(sprite, actor);
+    step(sprite, other);
+    ASSERT_EQ(std::memcmp(&actor, &other, sizeof actor), 0);
+  }
+}
+
+TEST(Actor, TwoCommandsThatFollowTheSameTablesRestartNothing) {
+  SpriteData data = testing::tiny_sprite_data();
+  data.modes[0].table_of[2] = Direction::RightDown;  // Down is not served
+  const Sprite sprite = *make_sprite(std::move(data));
+  Actor actor = make_actor(sprite);
+  set_direction(sprite, actor, Direction::RightDown);
+  step(sprite, actor);
+  step(sprite, actor);
+  const int stage = actor.stage;
+  set_direction(sprite, actor, Direction::Down);
+  EXPECT_EQ(actor.direction, Direction::Down);
+  EXPECT_EQ(actor.stage, stage);
+}
+
+TEST(Actor, ReachesEveryHeadingAndHoldsIt) {
+  const Sprite sprite = testing::tiny_sprite();
+  for (int mode = 0; mode < 2; ++mode) {
+    for (int d = 0; d < kCompassCount; ++d) {
+      Actor actor = make_actor(sprite, {}, 0, mode);
+      set_direction(sprite, actor, static_cast<Direction>(d));
+      for (int tick = 0; tick < 30; ++tick) step(sprite, actor);
+      for (int tick = 0; tick < 60; ++tick) {
+        step(sprite, actor);
+        ASSERT_EQ(tiny_heading(actor.sample), d) << "mode " << mode;
+      }
+    }
+    Actor actor = make_actor(sprite, {}, 0, mode);
+    set_direction(sprite, actor, Direction::Rest);
+    for (int tick = 0; tick < 60; ++tick) step(sprite, actor);
+    EXPECT_EQ(tiny_heading(actor.sample), -1);
+  }
+}
+
+TEST(Actor, JumpedTellsEveryTransitionThatIsNotTheFilmsOwn) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite);
+  std::mt19937 random(11);
+  int jumps = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    if (tick % 40 == 0) set_direction(sprite, actor, static_cast<Direction>(random() % 10));
+    const Actor before = actor;
+    step(sprite, actor);
+    const bool changed = actor.shown == 1;
+    ASSERT_EQ(actor.jumped, changed && !sprite.is_natural(before.sample, actor.sample));
+    const float cost = shown_cost(sprite, before.sample, actor);
+    ASSERT_EQ(cost > 0, actor.jumped == 1);
+    jumps += actor.jumped;
+  }
+  EXPECT_GT(jumps, 100);
+}
+
+TEST(Actor, AimsAtATargetAndRestsThere) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite, {}, 0, 1);
+  for (int tick = 0; tick < 400; ++tick) {
+    set_target(sprite, actor, {300, 170}, 30);
+    step(sprite, actor);
+  }
+  const Vec2 at = to_pixels(actor.position);
+  EXPECT_LT(std::hypot(at.x - 300, at.y - 170), 60);
+  EXPECT_EQ(actor.direction, Direction::Rest);
+}
+
+TEST(Actor, ATargetOnASectorBorderDoesNotMakeItDither) {
+  const Sprite sprite = testing::tiny_sprite();
+  Actor actor = make_actor(sprite);
+  int changes = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    const float wobble = tick % 2 ? 4.0f : -4.0f;  // about 22.5 degrees, +-2
+    const Direction before = actor.direction;
+    set_target(sprite, actor, {100, 41.4f + wobble}, 1);
+    changes += actor.direction != before;
+  }
+  EXPECT_EQ(changes, 1);
+}
+
+TEST(Actor, StateHashIsTheDocumentedOne) {
+  StateHash hash;
+  EXPECT_EQ(hash.digest(), 0x2D06800538D394C2u);  // XXH3-64 of nothing
+  Actor actor;
+  actor.tick = 1;
+  actor.sample = 2;
+  actor.position = {-3, 4};
+  actor.table = 5;
+  hash.add(actor);
+  StateHash other;
+  actor.table = 6;
+  other.add(actor);
+  EXPECT_NE(hash.digest(), other.digest());
+}
+
+TEST(Actor, TheSameKeysGiveTheSameStates) {
+  const Sprite sprite = testing::tiny_sprite();
+  const auto run = [&](unsigned seed) {
+    Actor actor = make_actor(sprite);
+    StateHash hash;
+    std::mt19937 random(seed);
+    for (int tick = 0; tick < 5000; ++tick) {
+      if (random() % 20 == 0) set_direction(sprite, actor, static_cast<Direction>(random() % 10));
+      step(sprite, actor);
+      hash.add(actor);
+    }
+    return hash.digest();
+  };
+  EXPECT_EQ(run(1), run(1));
+  EXPECT_NE(run(1), run(2));
+}
+
+// A freeze is a tick after a sample's duration that shows the same sample.
+TEST(Actor, AnHourOfRandomSteeringNeverFreezes) {
+  const Sprite sprite = testing::tiny_sprite();
+  for (int mode = 0; mode < 2; ++mode) {
+    Actor actor = make_actor(sprite, {}, 0, mode);
+    std::mt19937 random(5);
+    std::int64_t x = 0, y = 0;
+    for (int tick = 0; tick < 30 * 3600; ++tick) {
+      if (random() % 15 == 0) set_direction(sprite, actor, static_cast<Direction>(random() % 10));
+      const Actor before = actor;
+      const Sample& shown = sprite.samples()[before.sample];
+      step(sprite, actor);
+      x += shown.step_x;
+      y += shown.step_y;
+      ASSERT_FALSE(before.shown >= shown.duration && actor.sample == before.sample);
+    }
+    EXPECT_EQ(actor.position, (Position{x, y}));
+  }
+}
+
+}  // namespace
+}  // namespace vsprite

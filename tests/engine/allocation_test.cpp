@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// What runs every tick takes no memory.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "support/tiny_sprite.h"
+#include "vsprite/actor.h"
+#include "vsprite/compose.h"
+#include "vsprite/input.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+// Not inlined: the compiler would see malloc where new is due, and warn.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace vsprite {
+namespace {
+
+TEST(Allocation, ATickTakesNoMemory) {
+  const Sprite sprite = testing::tiny_sprite();
+  const KeyScript script = *parse_key_script("0 right; 2 left+up; 5 rest; 7 none", sprite.fps());
+  Image picture = testing::tiny_picture(sprite.data(), 1);
+  premultiply(picture);
+  Image canvas = make_checkerboard(64, 64);
+  const long before = allocations;
+  Actor actor = make_actor(sprite, {32, 32});
+  StateHash hash;
+  for (std::uint64_t tick = 0; tick < 300; ++tick) {
+    if (tick < 200) {
+      set_direction(sprite, actor, script.at(tick));
+    } else {
+      set_target(sprite, actor, {500, -80}, 10);
+    }
+    step(sprite, actor);
+    hash.add(actor);
+    draw_sample(canvas, picture, sprite.samples()[actor.sample],
+                draw_position(sprite, actor, 0.5f));
+  }
+  EXPECT_EQ(allocations, before);
+  EXPECT_NE(hash.digest(), 0u);
+}
+
+}  // namespace
+}  // namespace vsprite

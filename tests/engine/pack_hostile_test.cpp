@@ -1,0 +1,318 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// One hand-made hostile pack for every way in which a pack can lie with all its sums in order.
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include <functional>
+#include <limits>
+#include <set>
+
+#include "support/pack_bytes.h"
+#include "vsprite/actor.h"
+
+namespace vsprite {
+namespace {
+
+using testing::ByteVector;
+using testing::get_at;
+using testing::PackParts;
+using testing::put_at;
+
+// Field offsets of PACK.md.
+constexpr std::size_t kEntry0 = 64, kEntry1 = 96, kEntry2 = 128;
+constexpr std::size_t sample_at(std::size_t i) { return 56 * i; }
+constexpr std::size_t frame_at(std::size_t i) { return 24 * i; }
+const std::size_t kRows = 8;
+const std::size_t kTransitions = 8 + 4 * (testing::kTinySamples + 1);
+constexpr std::size_t kNext = 64 + 8;  // "paper", padded to 8
+constexpr std::uint32_t kHuge = 0xFFFFFFF0u;
+
+using EditBytes = std::function<void(ByteVector&)>;
+using EditParts = std::function<void(PackParts&)>;
+
+// Damage to header or section table; its sum is made right afterwards.
+ByteVector damage_header(const EditBytes& edit) {
+  ByteVector bytes = testing::tiny_pack_bytes();
+  edit(bytes);
+  if (bytes.size() >= 64) testing::seal_header(bytes);
+  return bytes;
+}
+
+// Damage to a section; all sums are made right afterwards.
+ByteVector damage_section(const EditParts& edit) {
+  PackParts parts = PackParts::split(testing::tiny_pack_bytes());
+  edit(parts);
+  return parts.join();
+}
+
+// Replaces the last picture by other bytes that its own sum fits.
+ByteVector replace_last_picture(const ByteVector& picture) {
+  return damage_section([&](PackParts& p) {
+    ByteVector& index = p["FIDX"].bytes;
+    ByteVector& frames = p["FRAM"].bytes;
+    const std::size_t last = frame_at(testing::kTinySamples - 1);
+    frames.resize(get_at<std::uint64_t>(index, last));
+    frames.insert(frames.end(), picture.begin(), picture.end());
+    put_at(index, last + 8, static_cast<std::uint32_t>(picture.size()));
+    put_at(index, last + 16, detail::hash_bytes(picture));
+  });
+}
+
+ByteVector compressed(const ByteVector& plain) {
+  ByteVector out(ZSTD_compressBound(plain.size()));
+  out.resize(ZSTD_compress(out.data(), out.size(), plain.data(), plain.size(), 1));
+  return out;
+}
+
+template <class T>
+EditParts set(const char* section, std::size_t offset, T value) {
+  return [=](PackParts& p) { put_at(p[section].bytes, offset, value); };
+}
+
+struct Hostile {
+  const char* code;
+  const char* message;  // part of it
+  ByteVector bytes;
+  bool loads = false;  // found by verifying only
+};
+
+std::vector<Hostile> header_packs() {
+  return {
+      {"too-short", "63 bytes", damage_header([](auto& b) { b.resize(63); })},
+      {"bad-magic", "not a pack", damage_header([](auto& b) { b[4] = '\n'; })},
+      {"version", "pack version 0.2", damage_header([](auto& b) { b[10] = 2; })},
+      {"version", "pack version 256.1", damage_header([](auto& b) {
+         std::swap(b[8], b[9]);
+         b[9] = 1;
+       })},
+      {"file-size", "its header says", damage_header([](auto& b) { b.push_back(0); })},
+      {"file-size", "its header says 18446744073709551615",
+       damage_header([](auto& b) { put_at(b, 16, ~std::uint64_t{0}); })},
+      {"section-count", "4294967280 sections",
+       damage_header([](auto& b) { put_at(b, 12, kHuge); })},
+      {"section-count", "65 sections", damage_header([](auto& b) { put_at(b, 12, 65u); })},
+      {"header-sum", "the sum of header",
+       [] {
+         ByteVector b = testing::tiny_pack_bytes();
+         b[24] ^= 1;
+         return b;
+       }()},
+      {"reserved", "reserved bytes", damage_header([](auto& b) { b[40] = 1; })},
+      {"section-name", "four capital letters", damage_header([](auto& b) { b[kEntry0] = 'm'; })},
+      {"section-version", "version 2", damage_header([](auto& b) { b[kEntry0 + 4] = 2; })},
+      {"section-version", "flags 1", damage_header([](auto& b) { b[kEntry0 + 6] = 1; })},
+      {"section-align", "no multiple of 64", damage_header([](auto& b) { b[kEntry1 + 8] += 8; })},
+      {"section-bounds", "reach beyond",
+       damage_header([](auto& b) { put_at(b, kEntry1 + 16, ~std::uint64_t{0}); })},
+      {"section-bounds", "at 18446744073709551552", damage_header([](auto& b) {
+         put_at(b, kEntry1 + 8, ~std::uint64_t{63});
+         put_at(b, kEntry1 + 16, std::uint64_t{128});
+       })},
+      {"section-overlap", "before the end", damage_header([](auto& b) {
+         put_at(b, kEntry1 + 8, get_at<std::uint64_t>(b, kEntry0 + 8));
+       })},
+      {"section-overlap", "starts at 0",
+       damage_header([](auto& b) { put_at(b, kEntry0 + 8, std::uint64_t{0}); })},
+      {"section-gap", "a gap after", damage_header([](auto& b) {
+         put_at(b, kEntry2 + 8, get_at<std::uint64_t>(b, kEntry2 + 8) + 64);
+       })},
+      {"trailing-bytes", "ends before the file", damage_header([](auto& b) {
+         b.insert(b.end(), 8, 0);
+         put_at(b, 16, std::uint64_t{b.size()});
+       })},
+      {"section-missing", "SAMP: is missing", damage_header([](auto& b) { b[kEntry1] = 'X'; })},
+      {"section-missing", "CTRL: is missing", damage_section([](auto& p) {
+         p["CTRL"].name = "ZTRL";
+         p["CTRL"].name = "ZTRL";
+       })},
+      {"section-twice", "SAMP: stands there twice",
+       damage_header([](auto& b) { std::copy_n(b.begin() + kEntry1, 4, b.begin() + kEntry2); })},
+      {"mode-count", "17 modes", damage_section([](auto& p) {
+         const auto mode = p["CTRL"];
+         for (int i = 0; i < 15; ++i) p.parts.insert(p.parts.begin() + 3, mode);
+       })},
+      {"section-sum", "META: the section's sum",
+       [] {
+         ByteVector b = testing::tiny_pack_bytes();
+         b[get_at<std::uint64_t>(b, kEntry0 + 8)] ^= 1;
+         return b;
+       }()},
+      {"padding", "before the section",
+       [] {
+         ByteVector b = testing::tiny_pack_bytes();
+         b[get_at<std::uint64_t>(b, kEntry1 + 8) - 1] = 1;
+         return b;
+       }(),
+       true},
+  };
+}
+
+std::vector<Hostile> meta_packs() {
+  return {
+      {"meta-size", "need 32 bytes, 31",
+       damage_section([](auto& p) { p["META"].bytes.resize(31); })},
+      {"meta-size", "bytes too many",
+       damage_section([](auto& p) { p["META"].bytes.push_back(0); })},
+      {"reserved", "reserved bytes", damage_section(set<std::uint8_t>("META", 24, 1))},
+      {"tag-count", "4294967280 tags", damage_section(set("META", 20, kHuge))},
+      {"tag-count", "0 tags", damage_section([](auto& p) {
+         put_at(p["META"].bytes, 20, 0u);
+         p["META"].bytes.resize(38);
+       })},
+      {"text-size", "65535 bytes", damage_section(set<std::uint16_t>("META", 32, 65535))},
+      {"text-size", "length is cut off", damage_section(set("META", 20, 3u))},
+      {"text", "control character", damage_section(set<char>("META", 35, '\x1B'))},
+      {"fps", "rate of 0/1", damage_section(set("META", 0, 0u))},
+      {"body-length", "not a finite",
+       damage_section(set("META", 8, std::numeric_limits<float>::infinity()))},
+      {"start-sample", "start sample 0", damage_section(set("META", 12, 0u))},
+      {"start-sample", "start sample 4294967280", damage_section(set("META", 12, kHuge))},
+      {"samp-size", "0 samples: need 0", damage_section(set("META", 16, 0u))},
+      {"samp-size", "4294967280 samples", damage_section(set("META", 16, kHuge))},
+      {"sample-count", "0 samples, 1 to", damage_section([](auto& p) {
+         put_at(p["META"].bytes, 16, 0u);
+         p["SAMP"].bytes.clear();
+         p["TRAN"].bytes.assign(12, 0);
+         p["CTRL"].bytes.resize(kNext);
+         p.parts[4].bytes.resize(64 + 12);
+       })},
+  };
+}
+
+std::vector<Hostile> sample_packs() {
+  const float nan = std::nanf("");
+  return {
+      {"sample-value", "sample 3", damage_section(set("SAMP", sample_at(3), nan))},
+      {"sample-range", "area below 0", damage_section(set("SAMP", sample_at(3) + 24, -1.0f))},
+      {"sample-range", "scale", damage_section(set("SAMP", sample_at(3) + 28, 0.0f))},
+      {"picture-size", "0 x 21", damage_section(set<std::uint16_t>("SAMP", sample_at(1) + 32, 0))},
+      {"picture-size", "5 x 0", damage_section(set<std::uint16_t>("SAMP", sample_at(0) + 32, 5))},
+      {"picture-size", "65535 x 65535", damage_section(set("SAMP", sample_at(3) + 32, ~0u))},
+      {"duration", "sample 3", damage_section(set<std::uint16_t>("SAMP", sample_at(3) + 36, 0))},
+      {"tag-index", "tag 2 of 2", damage_section(set<std::uint16_t>("SAMP", sample_at(3) + 38, 2))},
+      {"mirror-index", "sample 103 of 103", damage_section(set("SAMP", sample_at(3) + 48, 103u))},
+      {"kept-flag", "kept is 2", damage_section(set("SAMP", sample_at(3) + 52, 2u))},
+  };
+}
+
+std::vector<Hostile> transition_packs() {
+  const float nan = std::nanf("");
+  return {
+      {"tran-size", "104 row starts", damage_section([](auto& p) { p["TRAN"].bytes.resize(40); })},
+      {"tran-size", "4294967280 transitions", damage_section(set("TRAN", 0, std::uint64_t{kHuge}))},
+      {"tran-size", "2305843009213693952 transitions",
+       damage_section(set("TRAN", 0, std::uint64_t{1} << 61))},
+      {"row-order", "row starts", damage_section(set("TRAN", kRows + 8, kHuge))},
+      {"row-order", "row starts", damage_section(set("TRAN", kRows, 1u))},
+      {"transition-index", "to sample 103", damage_section(set("TRAN", kTransitions, 103u))},
+      {"transition-order", "ascending", damage_section(set("TRAN", kTransitions + 8, 2u))},
+      {"transition-cost", "the cost to", damage_section(set("TRAN", kTransitions + 4, nan))},
+      {"transition-cost", "the cost to", damage_section(set("TRAN", kTransitions + 4, -0.5f))},
+      {"transition-kept", "not kept", damage_section(set("TRAN", kTransitions, 0u))},
+  };
+}
+
+std::vector<Hostile> mode_packs() {
+  const float nan = std::nanf("");
+  return {
+      {"ctrl-size", "need 64 bytes", damage_section([](auto& p) { p["CTRL"].bytes.resize(63); })},
+      {"ctrl-size", "entries of next", damage_section([](auto& p) { p["CTRL"].bytes.pop_back(); })},
+      {"ctrl-size", "entries of next", damage_section(set("CTRL", 12, kHuge))},
+      {"text-size", "a name of 4294967280", damage_section(set("CTRL", 36, kHuge))},
+      {"padding", "padding of the name", damage_section(set<char>("CTRL", 64 + 7, 'x'))},
+      {"reserved", "reserved bytes", damage_section(set<char>("CTRL", 63, 1))},
+      {"mode-name", "has no name", damage_section([](auto& p) {
+         ByteVector& mode = p["CTRL"].bytes;
+         put_at(mode, 36, 0u);
+         mode.erase(mode.begin() + 64, mode.begin() + kNext);
+       })},
+      {"alpha", "mode 0: alpha", damage_section(set("CTRL", 0, 1.0f))},
+      {"alpha", "mode 0: alpha", damage_section(set("CTRL", 0, nan))},
+      {"w1", "mode 0: w1", damage_section(set("CTRL", 4, -1.0f))},
+      {"cap", "mode 0: cap", damage_section(set("CTRL", 8, nan))},
+      {"stages", "0 stages", damage_section([](auto& p) {
+         put_at(p["CTRL"].bytes, 12, 0u);
+         p["CTRL"].bytes.resize(kNext);
+       })},
+      {"residual", "mode 0: residual",
+       damage_section(set("CTRL", 16, std::numeric_limits<double>::quiet_NaN()))},
+      {"served", "beyond the tenth", damage_section(set("CTRL", 32, 1u << 10))},
+      {"table-of", "direction 10 of 10", damage_section(set<std::uint8_t>("CTRL", 40 + 7, 10))},
+      {"next-index", "next is sample 103", damage_section(set("CTRL", kNext + 4, 103u))},
+      {"next-index", "next is sample 4294967295",
+       damage_section(set("CTRL", kNext + 4, kNoSample))},
+      {"next-kept", "which was not kept", damage_section(set("CTRL", kNext + 4, 0u))},
+      {"next-unkept", "has a next", damage_section(set("CTRL", kNext, 1u))},
+      {"next-transition", "no such transition", damage_section(set("CTRL", kNext + 4, 50u))},
+  };
+}
+
+std::vector<Hostile> picture_packs() {
+  const ByteVector bomb = compressed(ByteVector(std::size_t{64} << 20));
+  ByteVector glare(4 * 24 * 20);  // sample 102 is 22 x 20 or so; see below
+  glare[0] = 200;
+  const auto& last = testing::tiny_sprite_data().samples.back();
+  glare.resize(std::size_t{4} * last.width * last.height);
+  ByteVector two = compressed(ByteVector(glare.size()));
+  two.insert(two.end(), two.begin(), two.end());
+  return {
+      {"fidx-size", "103 pictures", damage_section([](auto& p) { p["FIDX"].bytes.pop_back(); })},
+      {"reserved", "picture 4", damage_section(set("FIDX", frame_at(4) + 12, 1u))},
+      {"frame-kept", "none for a kept", damage_section(set("FIDX", frame_at(4) + 8, 0u))},
+      {"frame-kept", "one for a sample not kept", damage_section(set("FIDX", frame_at(0) + 8, 1u))},
+      {"frame-bounds", "due at", damage_section(set("FIDX", frame_at(4), std::uint64_t{0}))},
+      {"frame-bounds", "4294967280 bytes", damage_section(set("FIDX", frame_at(4) + 8, kHuge))},
+      {"frame-bounds", "the pictures end at",
+       damage_section([](auto& p) { p["FRAM"].bytes.push_back(0); })},
+      {"frame-sum", "picture of sample 4",
+       damage_section(set("FIDX", frame_at(4) + 16, std::uint64_t{1})), true},
+      {"frame-decode", "not a picture", replace_last_picture({1, 2, 3}), true},
+      {"frame-decode", "not a picture", replace_last_picture(bomb), true},
+      {"frame-decode", "not a picture", replace_last_picture(two), true},
+      {"frame-colour", "greater than its alpha", replace_last_picture(compressed(glare)), true},
+  };
+}
+
+void expect_refused(const Hostile& hostile) {
+  SCOPED_TRACE(std::string(hostile.code) + ": " + hostile.message);
+  const auto issues = testing::verify_bytes(hostile.bytes);
+  ASSERT_FALSE(issues.empty());
+  EXPECT_EQ(issues[0].code, hostile.code);
+  EXPECT_EQ(issues[0].severity, "error");
+  const std::string message = issues[0].section + ": " + issues[0].message;
+  EXPECT_NE(message.find(hostile.message), std::string::npos) << message;
+  EXPECT_LE(issues[0].offset, hostile.bytes.size());
+  const auto sprite = testing::load_bytes(hostile.bytes);
+  ASSERT_EQ(sprite.has_value(), hostile.loads);
+  if (!sprite) {
+    EXPECT_EQ(sprite.error().message.find("tiny.vsp: "), 0u);
+    EXPECT_NE(sprite.error().message.find(issues[0].message), std::string::npos);
+    return;
+  }
+  Image image;
+  for (std::uint32_t i = 0; i < testing::kTinySamples; ++i) (void)sprite->decode_frame(i, image);
+}
+
+TEST(HostilePack, HeaderAndSectionTable) {
+  for (const Hostile& hostile : header_packs()) expect_refused(hostile);
+}
+TEST(HostilePack, Meta) {
+  for (const Hostile& hostile : meta_packs()) expect_refused(hostile);
+}
+TEST(HostilePack, Samples) {
+  for (const Hostile& hostile : sample_packs()) expect_refused(hostile);
+}
+TEST(HostilePack, Transitions) {
+  for (const Hostile& hostile : transition_packs()) expect_refused(hostile);
+}
+TEST(HostilePack, Modes) {
+  for (const Hostile& hostile : mode_packs()) expect_refused(hostile);
+}
+TEST(HostilePack, Pictures) {
+  for (const Hostile& hostile : picture_packs()) expect_refused(hostile);
+}
+
+}  // namespace
+}  // namespace vsprite

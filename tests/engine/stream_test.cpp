@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "vsprite/stream.h"
+
+#include <gtest/gtest.h>
+
+#include "pack_format.h"
+#include "support/temp_folder.h"
+#include "support/tiny_sprite.h"
+
+namespace vsprite {
+namespace {
+
+class FrameCacheTest : public ::testing::Test {
+ protected:
+  FrameCacheTest() {
+    const testing::TempFolder folder;
+    const SpriteData data = testing::tiny_sprite_data();
+    const auto saved = save_pack(folder.file("tiny.vsp"), data, [&](std::uint32_t sample) {
+      return Result<Image>(testing::tiny_picture(data, sample));
+    });
+    EXPECT_TRUE(saved);
+    bytes_ = testing::read_bytes(folder.file("tiny.vsp"));
+  }
+  Sprite load() const {
+    return *detail::load_pack_from(detail::ByteSource::borrow(bytes_, "tiny"));
+  }
+
+  std::vector<std::uint8_t> bytes_;
+};
+
+std::vector<std::uint8_t> copy(ImageView view) {
+  return {view.rgba, view.rgba + 4 * view.width * view.height};
+}
+
+TEST_F(FrameCacheTest, ServesThePremultipliedPictureAndDecodesItOnce) {
+  const Sprite sprite = load();
+  FrameCache cache(sprite);
+  Image due = testing::tiny_picture(sprite.data(), 7);
+  premultiply(due);
+  EXPECT_EQ(copy(cache.frame(7)), due.rgba);
+  EXPECT_EQ(copy(cache.frame(7)), due.rgba);
+  EXPECT_EQ(cache.stats().misses, 1u);
+  EXPECT_EQ(cache.stats().hits, 1u);
+}
+
+TEST_F(FrameCacheTest, DropsTheLeastRecentlyUsedAndKeepsToItsBudget) {
+  const Sprite sprite = load();
+  const std::size_t budget = 10'000;  // five pictures
+  FrameCache cache(sprite, budget);
+  for (std::uint32_t sample = 1; sample < 60; ++sample) {
+    cache.frame(sample);
+    cache.frame(1);  // always wanted, never dropped
+    ASSERT_LE(cache.stats().bytes, budget);
+  }
+  EXPECT_EQ(cache.stats().misses, 59u);
+}
+
+TEST_F(FrameCacheTest, HoldsTheTwoNewestWhateverTheBudget) {
+  const Sprite sprite = load();
+  FrameCache cache(sprite, 0);
+  const ImageView first = cache.frame(1);
+  const auto pixels = copy(first);
+  cache.frame(2);
+  EXPECT_EQ(copy(first), pixels);
+}
+
+TEST_F(FrameCacheTest, ADamagedPictureIsReplacedByTheLastGoodOneAndCounted) {
+  bytes_[bytes_.size() - 1] ^= 1;  // in the last picture
+  const std::uint32_t last = testing::kTinySamples - 1;
+  const Sprite sprite = load();
+  for (std::size_t budget : {std::size_t{0}, std::size_t{1} << 20}) {
+    FrameCache cache(sprite, budget);
+    EXPECT_EQ(cache.frame(last).width, 0) << "no good one yet";
+    const auto good = copy(cache.frame(5));
+    EXPECT_EQ(copy(cache.frame(last)), good);
+    EXPECT_EQ(copy(cache.frame(last)), good);
+    EXPECT_EQ(cache.stats().damaged, 3u);
+  }
+}
+
+}  // namespace
+}  // namespace vsprite
