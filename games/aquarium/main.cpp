@@ -44,7 +44,7 @@ class QualityKeeper {
   explicit QualityKeeper(std::optional<Quality> fixed)
       : automatic_(!fixed), quality_(fixed.value_or(Quality::High)) {}
   Quality update(FrameTimes& times) {
-    constexpr std::size_t kFrames = 24;
+    constexpr std::size_t kFrames = 10;
     if (automatic_ && quality_ != Quality::Low && times.count() >= kFrames &&
         times.mean(kFrames) > 33) {
       quality_ = static_cast<Quality>(static_cast<int>(quality_) - 1);
