@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // aquarium - steers a filmed goldfish through a tank, after food.
+#include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <utility>
 
 #include "arguments.h"
 #include "best.h"
@@ -196,10 +198,12 @@ Result<void> play(const vsprite::games::Arguments& arguments, const Options& opt
   if (!scene) return scene.error();
   Game game(*sprite, *session, std::move(*scene), options, arguments.seed);
   while (session->next_frame()) game.frame();
-  if (arguments.headless) {
+  if (arguments.headless || arguments.frames > 0) {
+    constexpr std::array<const char*, 3> kPhases{"ready", "playing", "over"};
     const World& world = game.world();
-    std::printf("%" PRIu64 " ticks, score %d, %d flakes, states %016" PRIx64 "\n", world.tick,
-                world.score, world.eaten, states_hash(world));
+    std::printf("%" PRIu64 " ticks, %s, score %d, %d flakes, states %016" PRIx64 "\n", world.tick,
+                kPhases[static_cast<std::size_t>(world.phase)], world.score, world.eaten,
+                states_hash(world));
   }
   return session->finish();
 }
