@@ -101,7 +101,7 @@ class Game {
     if (input.was_pressed('p')) set_paused(!world_.paused);
     if (lost && world_.phase == Phase::Playing) set_paused(true);
     const bool again = input.was_pressed(vsprite::kKeyEnter) || input.was_pressed(' ');
-    if (world_.paused && (again || input.direction() != Direction::None)) set_paused(false);
+    if (world_.paused && again) set_paused(false);
     const bool tapped =
         input.pointer_pressed && world_.phase == Phase::Over && world_.phase_ticks > 30;
     start_ = start_ || again || tapped;
