@@ -18,8 +18,8 @@ using vsprite::Vec2;
 
 namespace {
 
-constexpr float kPlayerBody = 150;  // tank px from nose to tail
-constexpr float kBite = 34;         // tank px around the mouth of the player's fish
+constexpr float kPlayerBody = 165;  // tank px from nose to tail
+constexpr float kBite = 36;         // tank px around the mouth of the player's fish
 constexpr float kFlakeFloor = 652;  // tank px
 constexpr float kComboSeconds = 3.0f;
 constexpr float kFlakeRestSeconds = 5.0f;
