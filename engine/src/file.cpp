@@ -9,8 +9,11 @@
 #include <atomic>
 #include <cassert>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <system_error>
 
 namespace vsprite::detail {
@@ -22,6 +25,22 @@ std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// Removes PATH.tmp.PID.SERIAL of processes that are gone: what a killed writer left behind.
+void remove_stale_temporaries(const std::string& path) {
+  namespace fs = std::filesystem;
+  const std::string prefix = fs::path(path).filename().string() + ".tmp.";
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder_of(path), ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const char* end = name.data() + name.size();
+    pid_t writer = 0;
+    const auto [after, error] = std::from_chars(name.data() + prefix.size(), end, writer);
+    if (error != std::errc() || after == end || *after != '.' || writer <= 0) continue;
+    if (::kill(writer, 0) != 0 && errno == ESRCH) ::unlink(entry.path().c_str());
+  }
 }
 
 }  // namespace
@@ -113,6 +132,7 @@ Result<std::vector<std::uint8_t>> read_file(const std::string& path, std::uint64
 }
 
 Result<FileWriter> FileWriter::create(const std::string& path) {
+  remove_stale_temporaries(path);
   static std::atomic<unsigned> serial{0};  // two threads may write the same path
   FileWriter writer;
   writer.path_ = path;

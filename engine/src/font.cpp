@@ -21,7 +21,7 @@ namespace {
 
 constexpr float kLine = 26;
 constexpr float kTop = 3;
-constexpr float kGap = 5;       // between the boxes of neighbours
+constexpr float kGap = 5;          // between the boxes of neighbours
 constexpr float kStroke = 0.085f;  // stroke width against the line height
 constexpr std::string_view kUnknown = "00a0ag0g00";
 
@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 95> kAscii = {
     "000b 0g",                           // !
     "0004 4044",                         // "
     "301g 806g 0595 0b9b",               // #
-    "~93800008989g1g0d 505g",       // $
+    "~93800008989g1g0d 505g",            // $
     "@00505606 @8adadg8g b02g",          // %
     "~ag24208085090g8gaa",               // &
     "0004",                              // '
@@ -61,11 +61,11 @@ constexpr std::array<std::string_view, 95> kAscii = {
     "~cg0g00f0fdbdb5 @45b5bd4d",         // @
     "0g60cg 2aaa",                       // A
     "000g ~003090983808 ~0838a8ag3g0g",  // B
-    "~b3a0000gagbd",                 // C
+    "~b3a0000gagbd",                     // C
     "000g ~0040c0cg4g0g",                // D
     "90000g9g 0878",                     // E
     "90000g 0878",                       // F
-    "~b3a0000gbgb9 b969",            // G
+    "~b3a0000gbgb9 b969",                // G
     "000g b0bg 08b8",                    // H
     "000g",                              // I
     "~707b7g0g0c",                       // J
@@ -93,7 +93,7 @@ constexpr std::array<std::string_view, 95> kAscii = {
     "0023",                              // `
     "@06868g0g 868g",                    // a
     "000g @06868g0g",                    // b
-    "~8976060g7g8d",                 // c
+    "~8976060g7g8d",                     // c
     "808g @06868g0g",                    // d
     "0b8b ~8b86060g7g8e",                // e
     "~6020252g 0656",                    // f
@@ -102,7 +102,7 @@ constexpr std::array<std::string_view, 95> kAscii = {
     "060g 01",                           // i
     "~363g3l0l 31",                      // j
     "000g 760d 3a8g",                    // k
-    "000g",                              // l
+    "~000d0g3g",                         // l
     "060g ~0b06666b6g ~6b66c6cbcg",      // m
     "060g ~0b06868b8g",                  // n
     "@06969g0g",                         // o

@@ -94,11 +94,6 @@ void verify_frames(const ByteSource& source, const PackContent& content, std::si
   }
 }
 
-bool is_known(const std::string& name) {
-  constexpr std::array<std::string_view, 6> kRead{"META", "SAMP", "TRAN", "CTRL", "FIDX", "FRAM"};
-  return std::find(kRead.begin(), kRead.end(), name) != kRead.end();
-}
-
 }  // namespace
 
 Result<Sprite> load_pack_from(ByteSource source) {
@@ -120,14 +115,19 @@ Result<Sprite> load_pack_from(ByteSource source) {
 Result<std::vector<PackIssue>> verify_pack_from(ByteSource source, std::size_t most) {
   try {
     PackContent content;
-    Check bad = read_header(source, content);
-    if (!bad) bad = read_content(source, content);
-    if (bad && bad->issue.code == "unreadable") return error_of(source, *bad);
-    if (bad) return std::vector<PackIssue>{bad->issue};
     std::vector<PackIssue> issues;
+    if (Check bad = read_header(source, content)) {
+      if (bad->issue.code == "unreadable") return error_of(source, *bad);
+      return std::vector<PackIssue>{bad->issue};
+    }
     verify_padding(source, content, issues);
-    for (const SectionEntry& entry : content.sections) {
-      if (entry.name == "FRAM" || !is_known(entry.name)) verify_sum(source, entry, issues);
+    for (const SectionEntry& entry : content.sections) verify_sum(source, entry, issues);
+    if (issues.size() >= most) return issues;
+    if (Check bad = read_content(source, content)) {
+      if (bad->issue.code == "unreadable") return error_of(source, *bad);
+      // A table whose sum is wrong has been reported already.
+      if (bad->issue.code != "section-sum") issues.push_back(bad->issue);
+      return issues;
     }
     verify_frames(source, content, most, issues);
     return issues;

@@ -51,10 +51,10 @@ inline vsprite::Color scaled(vsprite::Color c, float s) noexcept {
 inline vsprite::Color water_at(vsprite::Vec2 p) noexcept {
   const float h = std::clamp(p.y / kTankHeight, -0.3f, 1.3f);
   vsprite::Color c =
-      mix({0.11f, 0.45f, 0.50f, 1}, {0.020f, 0.185f, 0.265f, 1}, smooth_step(-0.1f, 0.45f, h));
-  c = mix(c, {0.006f, 0.062f, 0.100f, 1}, smooth_step(0.35f, 1.0f, h));
+      mix({0.085f, 0.43f, 0.50f, 1}, {0.012f, 0.160f, 0.260f, 1}, smooth_step(-0.1f, 0.45f, h));
+  c = mix(c, {0.004f, 0.052f, 0.092f, 1}, smooth_step(0.35f, 1.0f, h));
   const float middle = (p.x - 540) / 700;
-  return scaled(c, 0.50f + 0.62f * std::exp(-middle * middle));
+  return scaled(c, 0.42f + 0.70f * std::exp(-middle * middle));
 }
 
 /// What is left of a colour behind `depth` of water: through_water of common.frag.

@@ -240,63 +240,36 @@ std::vector<Plant> make_plants() {
   const Color grass{0.075f, 0.260f, 0.035f, 1};
   const Color lime{0.200f, 0.430f, 0.060f, 1};
   const Color olive{0.110f, 0.200f, 0.030f, 1};
-  const Color wine{0.330f, 0.055f, 0.060f, 1};
+  const Color wine{0.420f, 0.060f, 0.050f, 1};
+  const Color wine_dark{0.060f, 0.040f, 0.015f, 1};
   const Color moss{0.030f, 0.080f, 0.012f, 1};
   using K = PlantKind;
+  const Color shade{0.004f, 0.018f, 0.005f, 1};
+  // clang-format off
   return {
       // kind, foot, height, depth, spread, count, base, tip, seed
-      {K::Ribbons, {455, 574}, 300, 0.95f, 46, 9, dark, grass, 11},
-      {K::Ribbons, {880, 572}, 350, 0.95f, 54, 11, dark, grass, 12},
-      {K::Stems, {705, 572}, 110, 1.00f, 60, 6, dark, grass, 13},
-      {K::Ribbons, {1010, 584}, 430, 0.55f, 42, 10, dark, lime, 14},
-      {K::Stems, {560, 586}, 96, 0.60f, 52, 6, dark, olive, 15},
-      {K::Ribbons, {88, 590}, 440, 0.48f, 66, 12, dark, grass, 16},
-      {K::Stems, {1150, 598}, 250, 0.36f, 64, 8, dark, wine, 17},
-      {K::Ribbons, {1248, 610}, 500, 0.26f, 34, 9, dark, lime, 18},
-      {K::Sword, {884, 618}, 140, 0.30f, 96, 9, moss, lime, 19},
-      {K::Stems, {18, 628}, 230, 0.20f, 40, 6, moss, grass, 20},
-      {K::Sword, {424, 640}, 96, 0.16f, 76, 9, moss, grass, 21},
-      {K::Tuft, {286, 694}, 46, 0.05f, 70, 34, moss, lime, 22},
-      {K::Tuft, {1010, 690}, 40, 0.05f, 60, 28, moss, lime, 23},
-      {K::Tuft, {700, 640}, 22, 0.28f, 50, 20, moss, grass, 24},
+      {K::Ribbons, {545, 574}, 290, 0.85f, 44, 11, dark, grass, 11},
+      {K::Ribbons, {900, 572}, 360, 0.85f, 74, 15, dark, grass, 12},
+      {K::Stems, {715, 572}, 120, 0.90f, 60, 7, dark, grass, 13},
+      {K::Ribbons, {1010, 584}, 440, 0.48f, 50, 14, dark, lime, 14},
+      {K::Stems, {612, 586}, 104, 0.55f, 50, 7, dark, olive, 15},
+      {K::Ribbons, {84, 590}, 450, 0.40f, 74, 18, dark, grass, 16},
+      {K::Stems, {1148, 598}, 260, 0.30f, 62, 9, wine_dark, wine, 17},
+      {K::Ribbons, {1244, 610}, 500, 0.22f, 40, 13, dark, lime, 18},
+      {K::Sword, {884, 618}, 140, 0.24f, 96, 11, moss, lime, 19},
+      {K::Stems, {22, 628}, 240, 0.16f, 44, 7, moss, grass, 20},
+      {K::Sword, {424, 642}, 100, 0.14f, 76, 11, moss, grass, 21},
+      {K::Tuft, {286, 694}, 50, 0.04f, 90, 44, moss, lime, 22},
+      {K::Tuft, {1010, 692}, 44, 0.04f, 80, 38, moss, lime, 23},
+      {K::Tuft, {700, 634}, 24, 0.26f, 60, 26, moss, grass, 24},
+      {K::Tuft, {560, 612}, 18, 0.40f, 40, 18, moss, grass, 29},
       // close to the glass: dark, in front of the fish
-      {K::Ribbons,
-       {-14, 770},
-       470,
-       -0.1f,
-       52,
-       7,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.020f, 0.075f, 0.014f, 1},
-       25},
-      {K::Sword,
-       {1266, 764},
-       270,
-       -0.1f,
-       150,
-       9,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.024f, 0.085f, 0.014f, 1},
-       26},
-      {K::Tuft,
-       {86, 744},
-       74,
-       -0.1f,
-       110,
-       30,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.030f, 0.095f, 0.014f, 1},
-       27},
-      {K::Tuft,
-       {1150, 744},
-       62,
-       -0.1f,
-       120,
-       30,
-       {0.004f, 0.018f, 0.005f, 1},
-       {0.030f, 0.095f, 0.014f, 1},
-       28},
+      {K::Ribbons, {-14, 770}, 470, -0.1f, 52, 8, shade, {0.020f, 0.075f, 0.014f, 1}, 25},
+      {K::Sword, {1266, 764}, 270, -0.1f, 150, 11, shade, {0.024f, 0.085f, 0.014f, 1}, 26},
+      {K::Tuft, {86, 748}, 78, -0.1f, 130, 40, shade, {0.030f, 0.095f, 0.014f, 1}, 27},
+      {K::Tuft, {1150, 748}, 66, -0.1f, 140, 40, shade, {0.030f, 0.095f, 0.014f, 1}, 28},
   };
+  // clang-format on
 }
 
 void grow_plant(const Plant& plant, float time, std::span<const Wake> wakes, float pixel,

@@ -35,8 +35,8 @@ struct Stone {
   std::array<float, 4> look;
 };
 constexpr std::array<Stone, 2> kStonesBehindWood{{
-    {1105, 596, 122, 112, {3, 0.45f, 0.24f, 1.2f}},
-    {200, 606, 134, 98, {1, 0.55f, 0.22f, 1.2f}},
+    {1105, 596, 122, 112, {3, 0.5f, 0.15f, 1.1f}},
+    {200, 606, 134, 98, {1, 0.6f, 0.15f, 1.1f}},
 }};
 constexpr std::array<Stone, 6> kStonesBeforeWood{{
     {66, 650, 132, 100, {2, 0.45f, 0.08f, 1.1f}},

@@ -17,30 +17,20 @@ using vsprite::Vec2;
 
 namespace {
 
-constexpr float kLookAheadSeconds = 2.0f;  // longer than any turn of a fish on film
-constexpr float kAfterSeconds = 0.6f;      // where it would drift to once the look-ahead has ended
+constexpr float kLongestLookAhead = 2.0f;  // seconds; for films of fish that never turn
+constexpr std::size_t kInwards = 3;        // directions that lead to the middle
 constexpr float kClearBodies = 1.0f;       // a replaced command returns this far from the glass
 
-int ahead_ticks(const Sprite& sprite) {
-  return static_cast<int>(kLookAheadSeconds * static_cast<float>(sprite.fps()));
-}
-
-/// Largest overhang while `command` is held for `ticks`; stops early above `enough`.
-float worst_overhang(const Sprite& sprite, Actor actor, const Box& room, Direction command,
+/// Sum over `ticks` of `command` of how far the body stands out, pixels; stops once above `enough`.
+float total_overhang(const Sprite& sprite, Actor actor, const Box& room, Direction command,
                      int ticks, float enough) {
-  float worst = 0;
+  float sum = 0;
   vsprite::set_direction(sprite, actor, command);
-  for (int t = 0; t < ticks && worst <= enough; ++t) {
+  for (int t = 0; t < ticks && sum <= enough; ++t) {
     vsprite::step(sprite, actor);
-    worst = std::max(worst, overhang(room, body_box(sprite, actor)));
+    sum += overhang(room, body_box(sprite, actor));
   }
-  const Vec2 v = sprite.samples()[actor.sample].velocity;
-  Box drifted = body_box(sprite, actor);
-  drifted.left += v.x * kAfterSeconds;
-  drifted.right += v.x * kAfterSeconds;
-  drifted.top += v.y * kAfterSeconds;
-  drifted.bottom += v.y * kAfterSeconds;
-  return std::max(worst, overhang(room, drifted));
+  return sum;
 }
 
 /// The eight directions, those that lead to the middle of the room first.
@@ -60,15 +50,15 @@ std::array<Direction, vsprite::kCompassCount> escapes(const Box& room, const Act
   return order;
 }
 
-/// Does some escape exist after one tick of `command`?
-bool is_safe(const Sprite& sprite, Actor actor, const Box& room, Direction command) {
+/// Does some escape exist after one tick of `command`? Only what leads inwards is an escape: to
+/// stay inside for a while is not enough if the fish ends up nose to the glass.
+bool is_safe(const Sprite& sprite, Actor actor, const Box& room, Direction command, int ticks) {
   vsprite::set_direction(sprite, actor, command);
   vsprite::step(sprite, actor);
   if (overhang(room, body_box(sprite, actor)) > 0) return false;
-  const int ticks = ahead_ticks(sprite);
-  if (worst_overhang(sprite, actor, room, command, ticks, 0) <= 0) return true;
-  for (const Direction d : escapes(room, actor))
-    if (worst_overhang(sprite, actor, room, d, ticks, 0) <= 0) return true;
+  const std::array<Direction, vsprite::kCompassCount> order = escapes(room, actor);
+  for (std::size_t k = 0; k < kInwards; ++k)
+    if (total_overhang(sprite, actor, room, order[k], ticks, 0) <= 0) return true;
   return false;
 }
 
@@ -91,7 +81,8 @@ float free_way(const Box& room, const Box& body, Direction d) {
 bool is_compass(Direction d) { return static_cast<int>(d) < vsprite::kCompassCount; }
 
 /// The replacement for a refused command: nearest in angle, then roomiest.
-Direction replacement(const Sprite& sprite, const Actor& actor, const Box& room, Direction wanted) {
+Direction replacement(const Sprite& sprite, const Actor& actor, const Box& room, Direction wanted,
+                      int ticks) {
   const Box body = body_box(sprite, actor);
   std::array<Direction, vsprite::kCompassCount> order = escapes(room, actor);
   if (is_compass(wanted)) {
@@ -102,25 +93,32 @@ Direction replacement(const Sprite& sprite, const Actor& actor, const Box& room,
       return free_way(room, body, a) > free_way(room, body, b);
     });
   }
-  const int ticks = ahead_ticks(sprite);
+  for (const Direction d : order)
+    if (is_safe(sprite, actor, room, d, ticks)) return d;
   Direction best = order[0];
-  float least = 1e9f;
+  float least = 1e30f;
   for (const Direction d : order) {
-    const float worst = worst_overhang(sprite, actor, room, d, ticks, least);
-    if (worst < least) {
-      least = worst;
-      best = d;
-    }
-    if (least <= 0) break;
+    const float sum = total_overhang(sprite, actor, room, d, 2 * ticks, least);
+    if (sum >= least) continue;
+    least = sum;
+    best = d;
   }
   return best;
 }
 
-/// Too far from every wall for any film to reach it within the look-ahead.
-bool is_far_from_walls(const Sprite& sprite, const Box& room, const Box& body) {
-  const float reach = 2.0f * sprite.data().body_length * (kLookAheadSeconds + kAfterSeconds);
-  return body.left - room.left > reach && room.right - body.right > reach &&
-         body.top - room.top > reach && room.bottom - body.bottom > reach;
+/// Ticks until an actor that swims towards `from` has begun to swim towards `to`.
+int ticks_to_turn(const Sprite& sprite, Actor actor, Direction from, Direction to, int most) {
+  vsprite::set_direction(sprite, actor, from);
+  for (int t = 0; t < most; ++t) vsprite::step(sprite, actor);
+  vsprite::set_direction(sprite, actor, to);
+  const Vec2 u = vsprite::unit_vector(to);
+  const float brisk = 0.25f * sprite.data().body_length;  // px/s
+  for (int t = 0; t < most; ++t) {
+    vsprite::step(sprite, actor);
+    const Vec2 v = sprite.samples()[actor.sample].velocity;
+    if (v.x * u.x + v.y * u.y > brisk) return t;
+  }
+  return most;
 }
 
 }  // namespace
@@ -137,16 +135,34 @@ float overhang(const Box& room, const Box& body) noexcept {
                    body.bottom - room.bottom});
 }
 
+int measure_look_ahead(const Sprite& sprite) noexcept {
+  const int most = static_cast<int>(kLongestLookAhead * static_cast<float>(sprite.fps()));
+  int longest = 0;
+  for (int from = 0; from < vsprite::kCompassCount; ++from) {
+    Actor actor = vsprite::make_actor(sprite);
+    for (int start = 0; start < 16; ++start) {
+      for (int t = 0; t < 7; ++t) vsprite::step(sprite, actor);
+      for (const int turn : {3, 4, 5}) {
+        const int to = (from + turn) % vsprite::kCompassCount;
+        longest = std::max(longest, ticks_to_turn(sprite, actor, static_cast<Direction>(from),
+                                                  static_cast<Direction>(to), most));
+      }
+    }
+  }
+  return std::min(longest + longest / 4 + 4, most);
+}
+
 Direction guarded_command(const Sprite& sprite, const Actor& actor, const Box& room,
-                          Direction wanted, Guard& guard) noexcept {
+                          Direction wanted, int look_ahead, Guard& guard) noexcept {
   const Box body = body_box(sprite, actor);
   const bool same_wish = guard.active && guard.wanted == wanted;
   const bool clear = !is_compass(wanted) ||
                      free_way(room, body, wanted) > kClearBodies * sprite.data().body_length;
-  if (same_wish && !clear && is_safe(sprite, actor, room, guard.given)) return guard.given;
+  if (same_wish && !clear && is_safe(sprite, actor, room, guard.given, look_ahead))
+    return guard.given;
   guard.active = 0;
-  if (is_far_from_walls(sprite, room, body) || is_safe(sprite, actor, room, wanted)) return wanted;
-  guard = {wanted, replacement(sprite, actor, room, wanted), 1};
+  if (is_safe(sprite, actor, room, wanted, look_ahead)) return wanted;
+  guard = {wanted, replacement(sprite, actor, room, wanted, look_ahead), 1};
   return guard.given;
 }
 

@@ -73,8 +73,9 @@ void update_heading(const Sprite& sprite, Fish& fish) {
   if (length > 0.05f) fish.heading = {h.x / length, h.y / length};
 }
 
-void swim(const Sprite& sprite, Fish& fish, Direction wanted) {
-  const Direction command = guarded_command(sprite, fish.actor, room_of(fish), wanted, fish.guard);
+void swim(const Sprite& sprite, Fish& fish, Direction wanted, int look_ahead) {
+  const Direction command =
+      guarded_command(sprite, fish.actor, room_of(fish), wanted, look_ahead, fish.guard);
   vsprite::set_direction(sprite, fish.actor, command);
   vsprite::step(sprite, fish.actor);
   update_heading(sprite, fish);
@@ -186,6 +187,7 @@ void shuffle_pose(const Sprite& sprite, Random& dice, Fish& fish) {
 World make_world(const Sprite& sprite, std::uint64_t seed, int others) {
   World world;
   world.dice.state = seed;
+  world.look_ahead = measure_look_ahead(sprite);
   world.fish.push_back(make_fish(sprite, world.dice, {kTankWidth / 2, 350}, kPlayerBody, 0));
   const int count = std::clamp(others, 0, 6);
   for (int k = 0; k < count; ++k) {
@@ -209,9 +211,9 @@ void step(const Sprite& sprite, World& world, const Input& input) {
   if (world.phase == Phase::Ready && (steered || input.start)) start_round(sprite, world);
   if (world.phase == Phase::Over && input.start) start_round(sprite, world);
 
-  swim(sprite, world.fish[0], player_command(sprite, world, input));
+  swim(sprite, world.fish[0], player_command(sprite, world, input), world.look_ahead);
   for (std::size_t k = 1; k < world.fish.size(); ++k)
-    swim(sprite, world.fish[k], think(sprite, world, k));
+    swim(sprite, world.fish[k], think(sprite, world, k), world.look_ahead);
   if (world.phase == Phase::Playing) run_round(sprite, world);
 }
 

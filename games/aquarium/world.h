@@ -67,8 +67,8 @@ enum class Phase : std::uint8_t { Ready, Playing, Over };
 /// What the player does in one tick.
 struct Input {
   vsprite::Direction direction = vsprite::Direction::None;
-  std::optional<vsprite::Vec2> target;  ///< tank px; replaces `direction`
-  bool start = false;                   ///< begins a new round once one is over
+  std::optional<vsprite::Vec2> target = {};  ///< tank px; replaces `direction`
+  bool start = false;                        ///< begins a new round once one is over
 };
 
 struct World {
@@ -76,6 +76,7 @@ struct World {
   std::vector<Flake> flakes;
   std::vector<Event> events;  ///< of the last tick
   Random dice;
+  int look_ahead = 30;  ///< ticks, measure_look_ahead
   Phase phase = Phase::Ready;
   bool paused = false;
   std::uint64_t tick = 0;

@@ -38,10 +38,10 @@ const vec3 kLight = vec3(-0.36, 0.86, 0.36);
 // The colour of open water, by height.
 vec3 water_at(vec2 p) {
   float h = clamp(p.y / 720.0, -0.3, 1.3);
-  vec3 c = mix(vec3(0.11, 0.45, 0.50), vec3(0.020, 0.185, 0.265), smoothstep(-0.1, 0.45, h));
-  c = mix(c, vec3(0.006, 0.062, 0.100), smoothstep(0.35, 1.0, h));
+  vec3 c = mix(vec3(0.085, 0.43, 0.50), vec3(0.012, 0.160, 0.260), smoothstep(-0.1, 0.45, h));
+  c = mix(c, vec3(0.004, 0.052, 0.092), smoothstep(0.35, 1.0, h));
   float middle = (p.x - 540.0) / 700.0;
-  return c * (0.50 + 0.62 * exp(-middle * middle));
+  return c * (0.42 + 0.70 * exp(-middle * middle));
 }
 
 // What is left of a colour behind `depth` of water: red is lost first.

@@ -70,9 +70,9 @@ void main() {
     shade *= 1.0 - 0.78 * exp(-1.5 * dot(d, d));
   }
   float s = 0.30 / view.z;  // two samples a pixel: pebbles are small
-  vec3 c = 0.5 * (bed(p + vec2(s, s)) + bed(p - vec2(s, s))) * shade * vec3(1.0, 0.93, 0.80) * 1.25;
+  vec3 c = 0.5 * (bed(p + vec2(s, s)) + bed(p - vec2(s, s))) * shade * vec3(1.0, 0.90, 0.74) * 1.05;
   float far = clamp((706.0 - p.y) / (706.0 - kBack), 0.0, 1.0);
   float depth = 0.05 + 0.95 * far * far;
   color = vec4(mix(behind.rgb, through_water(c, depth, p), cover),
-               cover * exp(-1.3 * depth) * (0.25 + 0.75 * shade));
+               cover * exp(-2.4 * depth) * (0.25 + 0.75 * shade));
 }

@@ -24,5 +24,5 @@ void main() {
   // Two sheets of waves; where both focus there is light.
   float net = min(net_at(g + vec2(0.011, 0.017) * time),
                   net_at(g * 0.83 + vec2(-0.019, 0.008) * time + 0.37));
-  color = vec4(vec3(1.0 + share * (3.6 * net - 0.38)), 1.0);
+  color = vec4(vec3(1.0 + share * (3.0 * net - 0.40)), 1.0);
 }

@@ -37,7 +37,7 @@ void main() {
   float sky = 0.5 + 0.5 * n.y;
   float lit = 0.06 + 0.16 * sky + 0.95 * max(dot(n, kLight), 0.0);
   vec2 q = d * place.zw / 40.0 + look.x * 9.0;
-  vec3 c = mix(vec3(0.060, 0.058, 0.058), vec3(0.205, 0.180, 0.150), fbm(q));
+  vec3 c = mix(vec3(0.050, 0.044, 0.038), vec3(0.190, 0.158, 0.120), fbm(q));
   c = mix(c, vec3(0.24, 0.17, 0.105), 0.5 * smoothstep(0.5, 0.7, fbm(q * 0.6 + 9.0)));
   float vein = smoothstep(0.0, 0.035, abs(fbm(q * 0.55 + 4.0) - 0.48));
   c *= 0.45 + 0.55 * vein;

@@ -44,12 +44,12 @@ void main() {
   float fine = noise(vec2(best.along / 10.0, best.side * 17.0));
   float groove = smoothstep(0.30, 0.48, grain);
   float lit = 0.10 + 0.90 * smoothstep(-0.75, 0.95, best.up + 0.9 * (grain - 0.5));
-  vec3 c = mix(vec3(0.038, 0.019, 0.010), vec3(0.185, 0.100, 0.048), grain * 0.6 + fine * 0.4);
+  vec3 c = mix(vec3(0.034, 0.016, 0.008), vec3(0.190, 0.098, 0.042), grain * 0.6 + fine * 0.4);
   c *= 0.35 + 0.65 * groove;
   float moss = smoothstep(0.30, 0.85, best.up) * smoothstep(0.42, 0.60, noise(p / 31.0));
   c = mix(c, vec3(0.040, 0.110, 0.018) * (0.5 + fine), 0.75 * moss);
   float rim = smoothstep(1.02, 0.6, best.reach);
   c *= lit * (0.35 + 0.65 * rim) * smoothstep(690.0, 520.0, p.y) * 1.5;
-  color = vec4(mix(behind.rgb, through_water(c, 0.17, p), cover),
+  color = vec4(mix(behind.rgb, through_water(c, 0.09, p), cover),
                mix(behind.a, 0.5 * max(best.up, 0.0), cover));
 }

@@ -234,6 +234,17 @@ TEST(Pack, AFullDiskIsASentence) {
   EXPECT_EQ(folder.count(), 0u);
 }
 
+TEST(Pack, WhatAKilledWriterLeftBehindIsRemoved) {
+  const testing::TempFolder folder;
+  const std::string mine = folder.file("a.vsp.tmp." + std::to_string(::getpid()) + ".9999");
+  testing::write_bytes(folder.file("a.vsp.tmp.2147483646.0"), {1});
+  testing::write_bytes(folder.file("a.vsp.tmp.notes"), {1});
+  testing::write_bytes(mine, {1});
+  ASSERT_TRUE(save_tiny(folder.file("a.vsp")));
+  EXPECT_EQ(folder.count(), 3u) << "the pack, the notes and the temporary of a living process";
+  EXPECT_FALSE(std::filesystem::exists(folder.file("a.vsp.tmp.2147483646.0")));
+}
+
 TEST(Pack, AMissingFolderCannotBeCreatedIn) {
   const testing::TempFolder folder;
   const auto saved = save_tiny(folder.file("none/a.vsp"));

@@ -1,45 +1,281 @@
-#pragma GCC diagnostic ignored "-Wconversion"
-#include <gtest/gtest.h>
-#include "support/tiny_sprite.h"
-#include "vsprite/compose.h"
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
 #include "vsprite/draw.h"
-#include "vsprite/record.h"
-#include "vsprite/sdl.h"
-#include "vsprite/pack.h"
-using namespace vsprite; namespace vt = vsprite::testing;
-TEST(Draw, Trial) {
-  auto w = Window::open({.width=640,.height=480,.headless=true});
-  ASSERT_TRUE(w) << w.error().message;
-  auto r = make_renderer();
-  ASSERT_TRUE(r) << r.error().message;
-  printf("%s\n", r->device().c_str());
-  r->begin_frame(900, 620);
-  r->clear(srgb(0x203040));
-  std::string s;
-  for (int i = 32; i < 127; ++i) { s += char(i); if (i % 32 == 31) s += '\n'; }
-  s += "\n\u2190\u2191\u2192\u2193 \u00b0\u00b1\u00d7\u2026\u00b7\u2013\u2014 \u00e9";
-  r->draw_text(s, {10, 10}, {.size = 40});
-  r->draw_text("The quick brown fox jumps over the lazy dog. 0123456789 sample 1234 cost 0.31 (F1)\n"
-               "stage 3  table right+down*6+2  frame 16.7 ms  [P] pause  {M} mute  50% @ a_b #7 & more!", {10, 230}, {.size = 16});
-  r->draw_text("The quick brown fox jumps over the lazy dog. 0123456789\nHAMSTERS & GOLDFISH: Press arrow keys", {10, 270}, {.size = 24});
-  r->draw_text("small 12 px: The quick brown fox jumps over 0123456789", {10, 330}, {.size = 12, .color=srgb(0xffe080)});
-  r->draw_text("Score 12", {890, 330}, {.size = 64, .align = Align::Right});
-  r->draw_shape(box({20, 420}, {80, 480}, srgb(0xffffff, 0.8f), 10));
-  auto o = box({100, 420}, {160, 480}, srgb(0xffffff, 0.8f), 10); o.outline = 3; r->draw_shape(o);
-  r->draw_shape(disc({200, 450}, 30, srgb(0xff4040)));
-  auto g = disc({280, 450}, 20, srgb(0xffe0a0)); g.feather = 20; r->draw_shape(g);
-  r->draw_shape(line({320, 420}, {400, 480}, 6, srgb(0x40ff80)));
-  Vec2 tri[] = {{420, 480}, {450, 420}, {480, 480}};
-  r->draw_polygon(tri, srgb(0xffffff));
-  auto d = vt::tiny_sprite_data();
-  for (int i = 0; i < 8; ++i) {
-    Image p = vt::tiny_picture(d, vt::tiny_sample(i, 3)); premultiply(p);
-    r->draw_sprite({.image = p, .position = {520.f + 45.f * i, 450}, .anchor = d.samples[4].anchor, .scale = 1.f + .3f*i});
-    r->draw_sprite({.image = p, .position = {520.f + 45.f * i, 520}, .anchor = d.samples[4].anchor, .scale = 1.f - .1f*i, .angle = .3f * i});
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "support/gl_stage.h"
+#include "vsprite/compose.h"
+
+namespace vsprite {
+namespace {
+
+using testing::color_at;
+using testing::largest_difference;
+using testing::noise_picture;
+
+class Draw : public testing::GlTest {
+ protected:
+  /// The picture on (40, 60, 90), drawn by both.
+  int difference_to_compositor(const Image& picture, Vec2 at, float scale) {
+    Image canvas = make_image(96, 80, 40, 60, 90);
+    draw_picture(canvas, picture, at, {.scale = scale});
+    renderer().begin_frame(96, 80);
+    renderer().clear(srgb(0x283c5a));
+    renderer().draw_sprite({.image = picture, .position = at, .scale = scale});
+    renderer().end_frame();
+    return largest_difference(renderer().read_pixels(), canvas);
   }
-  r->end_frame(640, 480);
-  Image img = r->read_pixels();
-  ASSERT_EQ(img.width, 900);
-  ASSERT_TRUE(save_png("/tmp/draw_trial.png", img));
-  ASSERT_TRUE(save_pack("/tmp/tiny.vsp", d, [&](std::uint32_t i) -> Result<Image> { return vt::tiny_picture(d, i); }));
+};
+
+TEST_F(Draw, IsTheCompositorsPictureAtEverySubPixelPlace) {
+  const Image picture = noise_picture(31, 27, 1);
+  for (float x : {10.0f, 10.25f, 10.5f, 10.8125f}) {
+    for (float y : {8.0f, 8.4375f, 8.75f}) {
+      EXPECT_LE(difference_to_compositor(picture, {x, y}, 1), 2) << x << ", " << y;
+    }
+  }
 }
+
+TEST_F(Draw, CutsOffWhatLiesOutside) {
+  const Image picture = noise_picture(31, 27, 2);
+  for (Vec2 at : {Vec2{-12.5f, -3.25f}, Vec2{80.5f, 70.75f}, Vec2{500, 500}}) {
+    EXPECT_LE(difference_to_compositor(picture, at, 1), 2) << at.x << ", " << at.y;
+  }
+}
+
+TEST_F(Draw, KeepsTheEdgeColourOfAReducedPicture) {
+  // Half covered everywhere: whatever the filter, inside the picture it stays the same colour.
+  Image picture = make_image(64, 64, 200, 80, 20, 128);
+  Image canvas = make_image(96, 80, 40, 60, 90);
+  draw_picture(canvas, picture, {0, 0});
+  for (float scale : {0.8f, 0.5f, 0.3f}) {
+    renderer().begin_frame(96, 80);
+    renderer().clear(srgb(0x283c5a));
+    renderer().draw_sprite({.image = picture, .position = {10.3f, 10.7f}, .scale = scale});
+    renderer().end_frame();
+    const Image seen = renderer().read_pixels();
+    EXPECT_EQ(color_at(seen, 19, 19), color_at(canvas, 20, 20)) << scale;
+  }
+}
+
+TEST_F(Draw, EncodesEveryGreyExactly) {
+  renderer().begin_frame(256, 4);
+  for (int i = 0; i < 256; ++i) {
+    const auto x = static_cast<float>(i);
+    const auto grey = static_cast<std::uint32_t>(i * 0x010101);
+    renderer().draw_shape(box({x, -1}, {x + 2, 5}, srgb(grey)));
+  }
+  renderer().end_frame();
+  const Image seen = renderer().read_pixels();
+  for (int i = 0; i < 256; ++i) {
+    EXPECT_EQ(color_at(seen, i, 2), static_cast<std::uint32_t>(i * 0x010101));
+  }
+}
+
+TEST_F(Draw, KeepsTheOrderOfTheCalls) {
+  const Image red = make_image(8, 8, 255, 0, 0);
+  const Color green = srgb(0x00ff00), blue = srgb(0x0000ff);
+  const std::array<Vertex, 3> triangle = {{{{0, 0}, blue}, {{40, 0}, blue}, {{0, 40}, blue}}};
+  const auto shot = [&](int last) {
+    renderer().begin_frame(16, 16);
+    for (int i = 1; i <= 3; ++i) {
+      const int what = (last + i) % 3;
+      if (what == 0) renderer().draw_sprite({.image = red, .position = {4, 4}});
+      if (what == 1) renderer().draw_shape(box({0, 0}, {16, 16}, green));
+      if (what == 2) renderer().draw_triangles(triangle);
+    }
+    renderer().end_frame();
+    return color_at(renderer().read_pixels(), 7, 7);
+  };
+  EXPECT_EQ(shot(0), 0xff0000u);
+  EXPECT_EQ(shot(1), 0x00ff00u);
+  EXPECT_EQ(shot(2), 0x0000ffu);
+}
+
+TEST_F(Draw, DrawsManySpritesAsOneBatch) {
+  const Image picture = noise_picture(20, 20, 3);
+  renderer().begin_frame(96, 80);
+  for (int i = 0; i < 100; ++i) {
+    const auto sample = static_cast<std::uint32_t>(i % 10);
+    const auto x = static_cast<float>(i % 80), y = static_cast<float>(i / 4);
+    renderer().draw_sprite({.image = picture, .key = {7, sample}, .position = {x, y}});
+  }
+  renderer().end_frame();
+  EXPECT_EQ(renderer().stats().sprites, 100u);
+  EXPECT_EQ(renderer().stats().uploads, 10u);
+  EXPECT_EQ(renderer().stats().batches, 1u);
+}
+
+TEST_F(Draw, ShowsTheRightPictureAfterPagesWereEmptied) {
+  open({.texture_budget = 1});
+  std::vector<Image> pictures;
+  for (unsigned i = 0; i < 6; ++i) pictures.push_back(noise_picture(32, 32, i));
+  const Image large = make_image(1500, 1500, 9, 9, 9);
+  for (std::uint32_t round = 0; round < 12; ++round) {
+    const Image& picture = pictures[round % 6];
+    Image canvas = make_image(96, 80, 0, 0, 0);
+    draw_picture(canvas, picture, {5, 6});
+    renderer().begin_frame(96, 80);
+    renderer().draw_sprite({.image = picture, .key = {1, round % 6}, .position = {5, 6}});
+    renderer().draw_sprite({.image = large, .position = {2000, 0}});
+    renderer().end_frame();
+    EXPECT_LE(largest_difference(renderer().read_pixels(), canvas), 2) << round;
+  }
+  EXPECT_GT(renderer().stats().evictions, 3u);
+}
+
+TEST_F(Draw, ForgetsAPackThatWasLoadedAnew) {
+  const Image before = make_image(8, 8, 255, 0, 0), after = make_image(8, 8, 0, 0, 255);
+  const TextureKey key{5, 0};
+  const auto shot = [&](const Image& picture) {
+    renderer().begin_frame(8, 8);
+    renderer().draw_sprite({.image = picture, .key = key});
+    renderer().end_frame();
+    return color_at(renderer().read_pixels(), 4, 4);
+  };
+  EXPECT_EQ(shot(before), 0xff0000u);
+  EXPECT_TRUE(renderer().is_cached(key));
+  renderer().forget(5);
+  EXPECT_FALSE(renderer().is_cached(key));
+  EXPECT_EQ(shot(after), 0x0000ffu);
+}
+
+TEST_F(Draw, MayBeResizedToNothingAndBack) {
+  const Image picture = make_image(8, 8, 255, 0, 0);
+  for (int size : {16, 0, 24, -3, 16}) {
+    renderer().begin_frame(size, size);
+    renderer().clear({});
+    renderer().draw_text("text", {0, 0}, {.color = srgb(0xffffff)});
+    renderer().draw_sprite({.image = picture});
+    renderer().end_frame(size, size);
+    const Image seen = renderer().read_pixels();
+    EXPECT_EQ(seen.width, std::max(size, 0));
+    if (size > 0) {
+      EXPECT_EQ(color_at(seen, 7, 7), 0xff0000u);
+      EXPECT_EQ(color_at(seen, 15, 15), 0xffffffu);
+    }
+  }
+}
+
+TEST_F(Draw, FitsTheFrameIntoAnyWindowAndFindsThePointerInIt) {
+  renderer().begin_frame(200, 100);
+  renderer().end_frame(400, 400);  // bars above and below, 100 px each
+  const Vec2 middle = renderer().frame_from_window({200, 200});
+  const Vec2 corner = renderer().frame_from_window({400, 300});
+  EXPECT_EQ(middle, (Vec2{100, 50}));
+  EXPECT_EQ(corner, (Vec2{200, 100}));
+}
+
+TEST_F(Draw, EverySignOfTheFontHasItsOwnInk) {
+  std::set<std::string> seen;
+  std::string signs;
+  for (char c = 33; c < 127; ++c) signs += c;
+  for (const char c : signs) {
+    renderer().begin_frame(40, 40);
+    renderer().draw_text(std::string(1, c), {4, 0}, {.size = 32});
+    renderer().end_frame();
+    const Image picture = renderer().read_pixels();
+    std::string ink;
+    for (int i = 0; i < 40 * 40; ++i)
+      ink += color_at(picture, i % 40, i / 40) > 0x808080 ? '#' : ' ';
+    EXPECT_NE(ink.find('#'), std::string::npos) << c;
+    EXPECT_TRUE(seen.insert(ink).second) << c;
+  }
+}
+
+TEST_F(Draw, TextStaysInTheBoxThatWasMeasured) {
+  const TextStyle style{.size = 20};
+  const Vec2 size = measure_text("Wide jig\n|@gy", style);
+  renderer().begin_frame(200, 100);
+  renderer().draw_text("Wide jig\n|@gy", {20, 20}, style);
+  renderer().end_frame();
+  const Image seen = renderer().read_pixels();
+  for (int y = 0; y < seen.height; ++y) {
+    for (int x = 0; x < seen.width; ++x) {
+      const bool inside = x >= 19 && y >= 19 && static_cast<float>(x) <= 21 + size.x &&
+                          static_cast<float>(y) <= 21 + size.y;
+      if (!inside) {
+        ASSERT_EQ(color_at(seen, x, y), 0u) << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST_F(Draw, AnEffectGetsItsUniformsAndTheScene) {
+  const Result<Effect> swap = renderer().make_effect(
+      "swap",
+      "uniform float gain;\nuniform vec4 points[2];\n"
+      "void main() { color = vec4(scene_at(pixel).bgr * gain, 1.0) + points[1]; }\n");
+  ASSERT_TRUE(swap) << swap.error().message;
+  const std::array<float, 8> points = {9, 9, 9, 9, 0, 1, 0, 0};
+  const std::array<Uniform, 3> uniforms = {Uniform("gain", 1.0f), Uniform("points", points, 4),
+                                           Uniform("unused", Vec2{1, 2})};
+  renderer().begin_frame(16, 16);
+  renderer().clear(srgb(0xff0000));
+  renderer().run_effect(*swap, uniforms, {.area = {0, 0, 8, 16}, .blend = BlendMode::Replace});
+  renderer().end_frame();
+  const Image seen = renderer().read_pixels();
+  EXPECT_EQ(color_at(seen, 3, 8), 0x00ffffu);
+  EXPECT_EQ(color_at(seen, 12, 8), 0xff0000u);
+}
+
+TEST_F(Draw, ALayerIsDrawnOnceAndShownOften) {
+  const Result<Layer> layer = renderer().make_layer(8, 8);
+  ASSERT_TRUE(layer);
+  renderer().begin_layer(*layer);
+  renderer().clear({0, 0, 0, 0});
+  renderer().draw_shape(box({-1, -1}, {9, 4}, srgb(0x00ff00)));
+  renderer().end_layer();
+  renderer().begin_frame(16, 16);
+  renderer().clear(srgb(0xff0000));
+  renderer().draw_layer(*layer);
+  renderer().end_frame();
+  const Image seen = renderer().read_pixels();
+  EXPECT_EQ(color_at(seen, 8, 2), 0x00ff00u);
+  EXPECT_EQ(color_at(seen, 8, 13), 0xff0000u);
+}
+
+TEST_F(Draw, NamesTheLineOfABadShader) {
+  const Result<Effect> bad = renderer().make_effect("bad", "\nvoid main() { color = nonsense; }\n");
+  ASSERT_FALSE(bad);
+  EXPECT_EQ(bad.error().code, ErrorCode::BadContent);
+  EXPECT_EQ(bad.error().message.rfind("bad.frag: ", 0), 0u) << bad.error().message;
+  EXPECT_NE(bad.error().message.find("2"), std::string::npos) << bad.error().message;
+  EXPECT_NE(bad.error().message.find("nonsense"), std::string::npos) << bad.error().message;
+}
+
+long resident_pages() {
+  long size = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return resident;
+}
+
+TEST_F(Draw, OpensAndClosesAHundredTimesWithoutGrowth) {
+  const Image picture = noise_picture(200, 200, 5);
+  long before = 0;
+  for (int i = 0; i < 100; ++i) {
+    open({});
+    renderer().begin_frame(64, 64);
+    renderer().draw_sprite({.image = picture});
+    renderer().draw_text("again", {0, 0});
+    renderer().end_frame();
+    if (i == 30) before = resident_pages();
+  }
+  EXPECT_LT(resident_pages() - before, 1024) << "pages of 4 KiB in 69 rounds";
+}
+
+TEST(DrawWithoutContext, SaysSo) {
+  const Result<Renderer> renderer = make_renderer();
+  ASSERT_FALSE(renderer);
+  EXPECT_EQ(renderer.error().code, ErrorCode::Unavailable);
+}
+
+}  // namespace
+}  // namespace vsprite

@@ -21,8 +21,9 @@ namespace vsprite {
 inline constexpr std::uint16_t kPackMajor = 0;
 inline constexpr std::uint16_t kPackMinor = 1;
 
-/// Maps and checks the file: header, tables, every index and every count, before memory is taken.
-/// Pictures are checked when first decoded. Cost: O(tables), not O(pictures).
+/// Reads header and tables and checks every count before memory is taken, every index, order and
+/// range. Pictures stay in the file, which remains open, and are checked when decoded. The file is
+/// read, not mapped, so that nobody who cuts it short can kill the game. Cost: O(tables).
 /// Errors: NotFound, CannotRead, BadFormat, UnsupportedVersion, CorruptData, LimitExceeded,
 /// OutOfMemory.
 Result<Sprite> load_pack(const std::string& path);
@@ -31,8 +32,9 @@ Result<Sprite> load_pack(const std::string& path);
 using FrameSource = std::function<Result<Image>(std::uint32_t sample)>;
 
 /// Writes a pack: `path` appears complete and synced, or not at all. The same data give the same
-/// bytes. Errors: CannotCreate, CannotWrite, CorruptData (`data` contradicts itself), OutOfMemory,
-/// and whatever `frames` returns.
+/// bytes. One picture is in memory at a time. Temporaries that killed writers of the same path left
+/// behind are removed. Errors: CannotCreate, CannotWrite, CorruptData (`data` contradicts itself),
+/// OutOfMemory, and whatever `frames` returns.
 Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames);
 
 /// One finding of verify_pack.
@@ -44,7 +46,8 @@ struct PackIssue {
   std::string message;
 };
 
-/// Checks every byte, pictures included. An empty list means valid. Safe on any bytes.
+/// Checks every byte, pictures included. An empty list means valid. Safe on any bytes. Stops at the
+/// first wrong table, after all wrong sums, or after 1,000 findings.
 /// Errors (as opposed to issues): NotFound, CannotRead, OutOfMemory.
 Result<std::vector<PackIssue>> verify_pack(const std::string& path);
 
