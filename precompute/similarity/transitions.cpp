@@ -125,7 +125,7 @@ std::vector<Edge> missing_edges(const CostTable& capped, const CostTable& full,
                                 std::uint32_t root) {
   using Offer = std::tuple<float, std::uint32_t, std::uint32_t>;  // cost, from, to
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers;
-  std::vector<std::uint8_t> seen(full.kept.size(), 0);
+  std::vector<std::uint8_t> seen(sample_count(full), 0);
   std::vector<std::uint32_t> stack;
   std::vector<Edge> missing;
   const auto flood = [&](std::uint32_t from) {

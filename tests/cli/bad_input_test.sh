@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the vsprite authors
+# SPDX-License-Identifier: MIT
+# Films and packs that are none: one sentence, the right exit code, nothing half made.
+. "$(dirname "$0")/lib.sh"
+film() { "$BIN/make_film" "$@" || fail "make_film $*"; }
+
+expect 66 vsprite build absent.mp4
+says "absent.mp4: no such file"; one_sentence
+expect 66 vsprite train --work absent.work
+expect 66 vsprite info absent.vsp
+expect 66 vsprite validate absent.vsp
+expect 66 vsprite doctor absent.mp4
+
+echo "this is no film" >text.mp4
+expect 3 vsprite build text.mp4
+says "text.mp4"; one_sentence
+expect 3 vsprite doctor text.mp4
+[ -e text.vsp ] && fail "a pack was made of a text"
+film blank blank.mp4 100
+expect 3 vsprite build blank.mp4
+says "blank.mp4"; one_sentence
+film two two.mp4 100
+expect 3 vsprite build two.mp4
+says "two.mp4"; one_sentence
+film circle circle.mp4 100
+head -c $(($(stat -c %s circle.mp4) / 2)) circle.mp4 >short.mp4
+expect 3 vsprite build short.mp4
+says "short.mp4"; one_sentence
+
+cp "$BIN/vsprite" binary.vsp
+expect 3 vsprite info binary.vsp
+expect 3 vsprite validate binary.vsp
+prints "INVALID: "
+expect 3 vsprite steer binary.vsp
+expect 3 vsprite doctor binary.vsp
+finish

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the vsprite authors
+# SPDX-License-Identifier: MIT
+# A film becomes a pack; what stands is not done again; what a person changed is taken up.
+. "$(dirname "$0")/lib.sh"
+"$BIN/make_film" circle "a film.mp4" 240 || fail make_film
+
+expect 0 vsprite build "a film.mp4" -o c.vsp --json
+is_json /stages/0/name /stages/4/seconds /stages/4/peak_rss_mb /stages/4/skipped /frames /duplicates \
+  /samples /clips /pairs /accepted /transitions /directions/7/name /directions/7/reachable \
+  /directions/7/tracking_error_deg /pack_bytes
+no_temporaries
+for file in sprites/000000.png samples.csv classifier.toml transitions.bin values.bin manifest.json contact.png; do
+  [ -s "c.work/$file" ] || fail "c.work/$file is missing"
+done
+[ "$(head -1 c.work/samples.csv)" = "sample,clip,frame,left,top,width,height,anchor_x,anchor_y,velocity_x,velocity_y,area,source,tag,duration,scale,mirror_of" ] ||
+  fail "samples.csv has other columns"
+first=$(sum c.vsp)
+
+expect 0 vsprite build "a film.mp4" -o c.vsp
+[ "$(grep -c 'up to date' stderr)" = 5 ] || fail "a second run did something"
+prints "next: vsprite play c.vsp"
+for stage in train transitions solve pack; do
+  expect 0 vsprite $stage --work c.work --force $stage
+  prints "next: vsprite"
+done
+[ "$(sum c.vsp)" = "$first" ] || fail "stages run one by one make another pack"
+rm c.vsp
+expect 0 vsprite pack c.vsp
+[ "$(sum c.vsp)" = "$first" ] || fail "a lost pack is not made again as it was"
+
+expect 0 vsprite info c.vsp --json
+is_json /version /samples /clips /tags /transitions /fps /size/1 /modes/0/mode /modes/0/tables /alpha \
+  /w1 /cap /residual /error_bound /bytes /sections/0/name
+expect 0 vsprite validate c.vsp
+[ "$(tail -1 stdout)" = OK ] || fail "the last line of validate is not OK"
+expect 0 vsprite steer c.vsp --keys "0 right; 2 down" --frames 100 --json --trace t.csv
+is_json /frames /states_hash /frames_to_turn/median /transition_cost/p99 /jumps_per_second /freezes /unfinished
+[ "$(wc -l <t.csv)" = 101 ] || fail "the trace has not one line a tick"
+grep -qE '"states_hash": "[0-9a-f]{16}"' stdout || fail "states_hash is not 16 hex digits"
+mv stdout once
+expect 0 vsprite steer c.vsp --keys "0 right; 2 down" --frames 100 --json
+diff -q once stdout >/dev/null || fail "the same keys give other states"
+expect 3 vsprite steer c.vsp --mode responsive
+for what in samples labels features distances transitions values; do
+  expect 0 vsprite dump --work c.work --what $what --format npy -o d.npy
+  expect 0 vsprite dump c.vsp --what $what --format csv -o d.csv --json
+  is_json /shape/0
+  [ "$(head -c 6 d.npy | tail -c 5)" = NUMPY ] || fail "$what is no npy file"
+done
+expect 0 vsprite doctor --work c.work --json
+is_json /ok /findings/0/state
+
+# A flipped byte and another version.
+cp c.vsp bad.vsp
+printf '\377' | dd of=bad.vsp bs=1 seek=$(($(stat -c %s c.vsp) / 2)) conv=notrunc 2>/dev/null
+expect 3 vsprite validate bad.vsp --json
+is_json /valid /issues/0/code /issues/0/section /issues/0/offset
+head -c 1000 c.vsp >cut.vsp
+expect 3 vsprite info cut.vsp
+says "cut.vsp"; one_sentence
+
+# What a person changed is taken up by the next stage and survives.
+cp c.work/sprites/000007.png c.work/sprites/000008.png 2>/dev/null
+expect 3 vsprite build "a film.mp4" -o c.vsp --max-size 64
+says "edited by hand"; says "--force segment"; one_sentence
+sed -i '4s/,0,/,x,/' c.work/samples.csv
+expect 3 vsprite train --work c.work
+says "samples.csv:4:"; one_sentence
+expect 3 vsprite doctor --work c.work
+expect 0 vsprite build "a film.mp4" -o c.vsp --force segment
+[ "$(sum c.vsp)" = "$first" ] || fail "a segmentation made anew differs"
+sed -i 's/^speed = .*/sped = 1/' c.work/classifier.toml
+expect 3 vsprite transitions --work c.work
+says "did you mean \`speed\`"
+expect 0 vsprite train --work c.work --force train
+head -c 100 c.work/transitions.bin >t.bin && mv t.bin c.work/transitions.bin
+expect 3 vsprite solve --work c.work
+says "transitions.bin"; one_sentence
+expect 0 vsprite build "a film.mp4" -o c.vsp
+[ "$(sum c.vsp)" = "$first" ] || fail "a damaged table was not made again as it was"
+rm c.work/sprites/000003.png
+expect 3 vsprite doctor c.work
+prints "000003.png"
+expect 3 vsprite train --work c.work
+says "000003.png"
+finish

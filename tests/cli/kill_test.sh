@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 the vsprite authors
+# SPDX-License-Identifier: MIT
+# Killed at VSPRITE_KILLS random writes, syncs, renames and removals: a plain rerun ends in the same
+# bytes and leaves nothing behind.
+. "$(dirname "$0")/lib.sh"
+if ! command -v strace >/dev/null; then echo "SKIPPED: strace is missing"; exit 77; fi
+"$BIN/make_film" circle c.mp4 150 || fail make_film
+kills=${VSPRITE_KILLS:-20}
+RANDOM=${VSPRITE_SEED:-1}
+
+expect 0 vsprite build c.mp4 -o c.vsp
+good=$(sum c.vsp); rm -rf c.vsp c.work
+# How often each call is made by the process itself; its decoder children write frames only.
+strace -qq -o calls "$BIN/vsprite" build c.mp4 -o c.vsp >/dev/null 2>&1; rm -rf c.vsp c.work
+most() { local n; n=$(grep -c "^$1(" calls); echo $((n > 0 ? n : 1)); }
+
+struck=0
+for ((k = 0; k < kills; ++k)); do
+  calls_of=(write fsync rename fsync rename unlink mkdir)
+  call=${calls_of[RANDOM % ${#calls_of[@]}]}
+  at=$((RANDOM % $(most $call) + 1))
+  rm -rf c.vsp c.work
+  { strace -f -qq -o /dev/null -e inject=$call:signal=KILL:when=$at "$BIN/vsprite" build c.mp4 -o c.vsp; } >/dev/null 2>&1
+  [ $? = 137 ] && struck=$((struck + 1))
+  expect 0 vsprite build c.mp4 -o c.vsp
+  [ "$(sum c.vsp)" = "$good" ] || fail "killed at $call $at: the rerun's pack differs"
+  no_temporaries
+done
+echo "$struck of $kills runs were killed on their way"
+[ "$struck" -ge $((kills / 2)) ] || fail "too few runs were killed"
+finish

@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "tool/build_pack.h"
+
+#include <gtest/gtest.h>
+
+namespace vsprite {
+namespace {
+
+/// Four samples of one clip that run to the right for ever; the last one was not kept.
+struct Tables {
+  FilmFacts film{"walk.mp4", 30000, 1001};
+  std::vector<SampleRow> rows;
+  CostTable costs;
+  ValueFile values;
+  std::vector<int> sides{10, 30, 20, 99};
+
+  Tables() {
+    for (int i = 0; i < 4; ++i) {
+      SampleRow row;
+      row.sample = i;
+      row.frame = i;
+      row.left = 100, row.top = 50;
+      row.width = 40, row.height = 20;
+      row.anchor_x = 118.5, row.anchor_y = 61.25;
+      row.velocity_x = 60, row.velocity_y = -30;
+      row.area = 400;
+      row.scale = 0.5;
+      row.duration = i == 1 ? 2 : 1;
+      rows.push_back(row);
+    }
+    costs.row_start = {0, 1, 2, 3, 3};
+    costs.transitions = {{1, 0}, {2, 0}, {0, 0.5f}};
+    costs.kept = {1, 1, 1, 0};
+    values.solution.stages = 1;
+    values.config.free_steps = 0;
+    values.solution.values.assign(10 * 4, 1);
+    for (int table = 0; table < 10; ++table)
+      values.solution.next.insert(values.solution.next.end(), {1, 2, 0, kNoSample});
+  }
+  Result<SpriteData> data() const { return make_sprite_data(film, rows, costs, values, sides); }
+};
+
+TEST(BuildPack, LengthsAreInSpritePixels) {
+  const auto data = Tables().data();
+  ASSERT_TRUE(data) << data.error().message;
+  const Sample& sample = data->samples[1];
+  EXPECT_EQ(sample.anchor, (Vec2{9.25f, 5.625f}));
+  EXPECT_EQ(sample.velocity, (Vec2{30, -15}));
+  EXPECT_EQ(sample.width, 20);
+  EXPECT_EQ(sample.height, 10);
+  EXPECT_EQ(sample.area, 100);
+  EXPECT_EQ(sample.duration, 2);
+  // 30 px/s at 30000/1001 ticks a second: 1.001 px a tick.
+  EXPECT_EQ(sample.step_x, 65602);
+  EXPECT_EQ(sample.step_y, -32801);
+  EXPECT_EQ(data->body_length, 20) << "the median over kept samples";
+  EXPECT_EQ(data->name, "walk");
+}
+
+TEST(BuildPack, WhatItMakesIsASprite) {
+  const auto data = Tables().data();
+  ASSERT_TRUE(data);
+  EXPECT_EQ(data->start_sample, 0u);
+  EXPECT_EQ(data->samples[3].kept, 0u);
+  EXPECT_EQ(data->samples[3].width, 0);
+  const auto sprite = make_sprite(*data);
+  EXPECT_TRUE(sprite) << sprite.error().message;
+}
+
+TEST(BuildPack, NothingKeptIsRefused) {
+  Tables tables;
+  tables.costs.kept = {0, 0, 0, 0};
+  const auto data = tables.data();
+  ASSERT_FALSE(data);
+  EXPECT_EQ(data.error().code, ErrorCode::BadContent);
+}
+
+DirectionReports only(std::initializer_list<Direction> reachable) {
+  DirectionReports reports;
+  for (int d = 0; d < kCompassCount; ++d)
+    reports[static_cast<std::size_t>(d)].direction = static_cast<Direction>(d);
+  for (const Direction d : reachable) {
+    reports[static_cast<std::size_t>(d)].reachable = true;
+    reports[static_cast<std::size_t>(d)].tracking_error_deg = 10;
+  }
+  return reports;
+}
+
+TEST(ServeDirections, ASideViewServesDiagonalsByItsTwoDirectionsAndRestsOtherwise) {
+  ControlMode mode;
+  serve_directions(mode, only({Direction::Right, Direction::Left}));
+  EXPECT_EQ(mode.served, 0b00010001u);
+  const Direction due[] = {Direction::Right, Direction::Right, Direction::Rest, Direction::Left,
+                           Direction::Left,  Direction::Left,  Direction::Rest, Direction::Right};
+  for (std::size_t d = 0; d < kCompassCount; ++d) EXPECT_EQ(mode.table_of[d], due[d]) << d;
+}
+
+TEST(ServeDirections, OfTwoNeighboursTheBetterTrackedOneServes) {
+  ControlMode mode;
+  DirectionReports reports = only({Direction::Right, Direction::Down});
+  reports[2].tracking_error_deg = 3;
+  serve_directions(mode, reports);
+  EXPECT_EQ(mode.table_of[1], Direction::Down);
+}
+
+TEST(ServeDirections, AnUnservedDirectionSaysWhy) {
+  const auto data = Tables().data();
+  ASSERT_TRUE(data);
+  const DirectionReports reports = only({});
+  EXPECT_NE(unserved_reason(*data, reports[2], 10).find("never moves down"), std::string::npos);
+  EXPECT_NE(unserved_reason(*data, reports[0], 10).find("3 samples move that way"),
+            std::string::npos);
+  EXPECT_NE(unserved_reason(*data, reports[0], 1000).find("nothing in the film moves"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace vsprite
