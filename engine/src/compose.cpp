@@ -17,14 +17,15 @@ struct Light {
 };
 
 float linear_from_premultiplied(unsigned value, unsigned alpha) {
-  const unsigned straight = std::min(255u, (value * 255u + alpha / 2) / alpha);
-  return static_cast<float>(linear_from_srgb(static_cast<std::uint8_t>(straight))) / 65535.0f;
+  const unsigned straight =
+      alpha == 255 ? value : std::min(255u, (value * 255u + alpha / 2) / alpha);
+  return static_cast<float>(linear_from_srgb(static_cast<std::uint8_t>(straight))) * (1 / 65535.0f);
 }
 
 // Adds a pixel, weighted.
 void accumulate(Light& sum, const std::uint8_t* pixel, float weight, Blend blend) {
   if (pixel[3] == 0) return;
-  const float a = static_cast<float>(pixel[3]) / 255.0f * weight;
+  const float a = static_cast<float>(pixel[3]) * (1 / 255.0f) * weight;
   sum.a += a;
   if (blend == Blend::LinearLight) {
     sum.r += a * linear_from_premultiplied(pixel[0], pixel[3]);
@@ -54,6 +55,9 @@ float encoded_from_linear(float linear) {
 }
 
 std::uint8_t store_channel(float colour, float a, unsigned alpha, Blend blend) {
+  if (alpha == 255 && blend == Blend::LinearLight) {
+    return srgb_from_linear(static_cast<std::uint16_t>(quantised(colour, 65535)));
+  }
   const float encoded =
       blend == Blend::Encoded ? colour : encoded_from_linear(colour / a) / 255.0f * a;
   return static_cast<std::uint8_t>(std::min(quantised(encoded, 255), alpha));

@@ -12,7 +12,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -141,16 +140,11 @@ Result<void> FilmWriter::Impl::start(double fps) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.6f", fps);
-  const std::array<const char*, 27> arguments = {
-      "ffmpeg",   "-nostdin", "-loglevel", "error",      "-y",         "-f",       "rawvideo",
-      "-pix_fmt", "rgb24",    "-s",        size.c_str(), "-r",         rate,       "-i",
-      "pipe:0",   "-an",      "-c:v",      "libx264",    "-preset",    "veryfast", "-crf",
-      "16",       "-pix_fmt", "yuv420p",   "-movflags",  "+faststart", nullptr};
-  std::vector<std::string> words;
-  for (const char* a : arguments) {
-    if (a != nullptr) words.emplace_back(a);
-  }
-  words.insert(words.end(), {"-f", "mp4", part});
+  std::vector<std::string> words = {
+      "ffmpeg",    "-nostdin",   "-loglevel", "error",    "-y",   "-f", "rawvideo", "-pix_fmt",
+      "rgb24",     "-s",         size,        "-r",       rate,   "-i", "pipe:0",   "-an",
+      "-c:v",      "libx264",    "-preset",   "veryfast", "-crf", "16", "-pix_fmt", "yuv420p",
+      "-movflags", "+faststart", "-f",        "mp4",      part};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

@@ -111,12 +111,17 @@ struct Window::Impl {
 
   ~Impl();
   Result<void> make();
+  bool make_context(Uint32 flags, int profile, int minor);
   void measure();
   void handle(const SDL_Event& event);
   void handle_key(const SDL_KeyboardEvent& key);
   void handle_window(const SDL_WindowEvent& event);
   void handle_pad_button(const SDL_ControllerButtonEvent& event);
   void release_all();
+  void toggle_full_screen() {
+    const bool full = (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
+    SDL_SetWindowFullscreen(window, full ? 0 : Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP});
+  }
   void update_stick();
   void point_at(int x, int y) { input.pointer = {float(x) * scale, float(y) * scale}; }
   void close_pad(SDL_JoystickID id);
@@ -136,18 +141,20 @@ Result<void> Window::Impl::make() {
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C ends the program, as everywhere
   SDL_SetHint(SDL_HINT_VIDEO_HIGHDPI_DISABLED, "0");
   if (!video.start(SDL_INIT_VIDEO)) return no_display(SDL_GetError());
-  SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
-  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
-  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 3);
+  // Where nothing else works SDL draws into memory unasked: a game that nobody can see or close.
+  const std::string driver = SDL_GetCurrentVideoDriver();
+  const bool unseen = driver == "offscreen" || driver == "dummy" || driver == "evdev";
+  if (unseen && !config.headless && SDL_getenv("SDL_VIDEODRIVER") == nullptr) {
+    return no_display("neither X11 nor Wayland answers");
+  }
   SDL_GL_SetAttribute(SDL_GL_DOUBLEBUFFER, 1);
   SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
   Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
   if (config.full_screen) flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
-  window = SDL_CreateWindow(config.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                            config.width, config.height, flags);
-  if (window == nullptr) return no_opengl(SDL_GetError());
-  context = SDL_GL_CreateContext(window);
-  if (context == nullptr) return no_opengl(SDL_GetError());
+  if (!make_context(flags, SDL_GL_CONTEXT_PROFILE_CORE, 3)) {
+    const std::string reason = SDL_GetError();
+    if (!make_context(flags, SDL_GL_CONTEXT_PROFILE_ES, 0)) return no_opengl(reason.c_str());
+  }
   // Adaptive sync where there is one; else plain, else none (software drivers).
   const bool sync = config.vsync && !config.headless;
   if (!sync || SDL_GL_SetSwapInterval(-1) != 0) SDL_GL_SetSwapInterval(sync ? 1 : 0);
@@ -155,6 +162,20 @@ Result<void> Window::Impl::make() {
   start = SDL_GetPerformanceCounter();
   measure();
   return {};
+}
+
+/// A window and an OpenGL 3.x context of that profile.
+bool Window::Impl::make_context(Uint32 flags, int profile, int minor) {
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, profile);
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, minor);
+  window = SDL_CreateWindow(config.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
+                            config.width, config.height, flags);
+  if (window != nullptr) context = SDL_GL_CreateContext(window);
+  if (context != nullptr) return true;
+  if (window != nullptr) SDL_DestroyWindow(window);
+  window = nullptr;
+  return false;
 }
 
 void Window::Impl::measure() {
@@ -186,8 +207,7 @@ void Window::Impl::handle_key(const SDL_KeyboardEvent& key) {
   const int code = key_code(key.keysym.sym);
   if (!down || code == 0) return;
   if (code == kKeyF11 || (code == kKeyEnter && (key.keysym.mod & KMOD_ALT) != 0)) {
-    const bool full = (SDL_GetWindowFlags(window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
-    SDL_SetWindowFullscreen(window, full ? 0 : Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP});
+    toggle_full_screen();
     return;
   }
   input.pressed.push_back(code);
@@ -324,10 +344,7 @@ bool Window::pump() {
 const Input& Window::input() const noexcept { return impl_->input; }
 void Window::swap() { SDL_GL_SwapWindow(impl_->window); }
 
-void Window::toggle_full_screen() {
-  const bool full = (SDL_GetWindowFlags(impl_->window) & SDL_WINDOW_FULLSCREEN_DESKTOP) != 0;
-  SDL_SetWindowFullscreen(impl_->window, full ? 0 : Uint32{SDL_WINDOW_FULLSCREEN_DESKTOP});
-}
+void Window::toggle_full_screen() { impl_->toggle_full_screen(); }
 
 void Window::set_title(const std::string& title) {
   SDL_SetWindowTitle(impl_->window, title.c_str());

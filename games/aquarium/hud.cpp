@@ -162,6 +162,7 @@ void draw_star(Renderer& renderer, Vec2 c, float radius, Color color) {
                                      corner(2 * k + 1, 0.42f * radius)},
                           color);
   }
+  renderer.draw_shape(vsprite::disc(c, 0.41f * radius, color));  // over the seams
 }
 
 void draw_end(Renderer& renderer, const Page& page, const Moment& moment, const HudState& state) {

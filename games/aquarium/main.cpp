@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 //
 // aquarium - steers a filmed goldfish through a tank, after food.
+#include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <utility>
 
 #include "arguments.h"
 #include "best.h"
@@ -44,7 +46,7 @@ class QualityKeeper {
   explicit QualityKeeper(std::optional<Quality> fixed)
       : automatic_(!fixed), quality_(fixed.value_or(Quality::High)) {}
   Quality update(FrameTimes& times) {
-    constexpr std::size_t kFrames = 24;
+    constexpr std::size_t kFrames = 10;
     if (automatic_ && quality_ != Quality::Low && times.count() >= kFrames &&
         times.mean(kFrames) > 33) {
       quality_ = static_cast<Quality>(static_cast<int>(quality_) - 1);
@@ -99,7 +101,7 @@ class Game {
     if (input.was_pressed('p')) set_paused(!world_.paused);
     if (lost && world_.phase == Phase::Playing) set_paused(true);
     const bool again = input.was_pressed(vsprite::kKeyEnter) || input.was_pressed(' ');
-    if (world_.paused && (again || input.direction() != Direction::None)) set_paused(false);
+    if (world_.paused && again) set_paused(false);
     const bool tapped =
         input.pointer_pressed && world_.phase == Phase::Over && world_.phase_ticks > 30;
     start_ = start_ || again || tapped;
@@ -196,10 +198,12 @@ Result<void> play(const vsprite::games::Arguments& arguments, const Options& opt
   if (!scene) return scene.error();
   Game game(*sprite, *session, std::move(*scene), options, arguments.seed);
   while (session->next_frame()) game.frame();
-  if (arguments.headless) {
+  if (arguments.headless || arguments.frames > 0) {
+    constexpr std::array<const char*, 3> kPhases{"ready", "playing", "over"};
     const World& world = game.world();
-    std::printf("%" PRIu64 " ticks, score %d, %d flakes, states %016" PRIx64 "\n", world.tick,
-                world.score, world.eaten, states_hash(world));
+    std::printf("%" PRIu64 " ticks, %s, score %d, %d flakes, states %016" PRIx64 "\n", world.tick,
+                kPhases[static_cast<std::size_t>(world.phase)], world.score, world.eaten,
+                states_hash(world));
   }
   return session->finish();
 }

@@ -217,9 +217,11 @@ void Scene::draw_fish(Renderer& renderer, vsprite::FrameCache& frames, const Mom
 
   vsprite::SpriteDraw look;
   const float light = shimmer(at, moment.seconds);
-  look.tint = {0.98f * light, 1.0f * light, 0.97f * light, 1};
+  // Red is lost first, as everywhere under water.
+  look.tint = {(1 - 0.42f * fish.depth) * light, (1 - 0.10f * fish.depth) * light, 0.97f * light,
+               1};
   look.fog = water_at(at);
-  look.fog_amount = std::min(0.85f, 0.04f + 0.74f * fish.depth);
+  look.fog_amount = std::min(0.85f, 0.03f + 0.66f * fish.depth);
   renderer.set_camera(camera_of(view_, fish.scale));
   vsprite::draw_actor(renderer, moment.sprite, frames, fish.actor, moment.fraction, look);
 }

@@ -18,8 +18,8 @@ using vsprite::Vec2;
 
 namespace {
 
-constexpr float kPlayerBody = 150;  // tank px from nose to tail
-constexpr float kBite = 34;         // tank px around the mouth of the player's fish
+constexpr float kPlayerBody = 165;  // tank px from nose to tail
+constexpr float kBite = 36;         // tank px around the mouth of the player's fish
 constexpr float kFlakeFloor = 652;  // tank px
 constexpr float kComboSeconds = 3.0f;
 constexpr float kFlakeRestSeconds = 5.0f;
@@ -73,11 +73,30 @@ void update_heading(const Sprite& sprite, Fish& fish) {
   if (length > 0.05f) fish.heading = {h.x / length, h.y / length};
 }
 
+/// The last resort for films whose fish cannot turn everywhere: it drifts no further out than a
+/// fifth of its length.
+void hold_back(const Sprite& sprite, Fish& fish) {
+  const Box room = room_of(fish);
+  const Box body = body_box(sprite, fish.actor);
+  const float most = 0.2f * sprite.data().body_length;
+  const auto back = [most](float below, float above) {
+    const float low = below - most;
+    const float high = above - most;
+    return static_cast<std::int64_t>((low > 0    ? low
+                                      : high > 0 ? -high
+                                                 : 0.0f) *
+                                     static_cast<float>(vsprite::kFixedOne));
+  };
+  fish.actor.position.x += back(room.left - body.left, body.right - room.right);
+  fish.actor.position.y += back(room.top - body.top, body.bottom - room.bottom);
+}
+
 void swim(const Sprite& sprite, Fish& fish, Direction wanted, int look_ahead) {
   const Direction command =
       guarded_command(sprite, fish.actor, room_of(fish), wanted, look_ahead, fish.guard);
   vsprite::set_direction(sprite, fish.actor, command);
   vsprite::step(sprite, fish.actor);
+  hold_back(sprite, fish);
   update_heading(sprite, fish);
 }
 

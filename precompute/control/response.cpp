@@ -39,7 +39,6 @@ double length_px(Position from, Position to) {
 double usual_speed(const Sprite& sprite) {
   std::vector<double> speeds, areas;
   for (const Sample& s : sprite.samples()) {
-    if (!s.kept) continue;
     const double x = static_cast<double>(s.velocity.x), y = static_cast<double>(s.velocity.y);
     speeds.push_back(std::sqrt(x * x + y * y));
     areas.push_back(static_cast<double>(s.area));

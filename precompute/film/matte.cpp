@@ -198,8 +198,8 @@ void Keyer::Impl::raise_alpha(const Frame& frame) {
       const Bilinear up(between(x, patch.width), rows, patch.width);
       const float g = light[luma_index(frame_at(frame, x, y))] - plate_luma(x, y);
       const float a = up.of(patch.alpha) + up.of(gain) * (g - up.of(guide));
-      // Without a key shadows and the codec's smear look like thin subject: they are taken off.
-      const float shade = screen->key < 0 ? 0.15f : 0.0f;
+      // Before a plain plate shadows and the codec's smear look like thin subject: they are taken off.
+      const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
       const float clear = (a - shade) / (1 - shade);
       out = clear < config.clip_low ? 0.0f : clear > config.clip_high ? 1.0f : clear;
     }

@@ -227,9 +227,11 @@ void find_bare(const std::vector<Grid>& grids, Bare& bare) {
       mask.in[i] =
           std::abs(d.y) < reach[0] && std::abs(d.cb) < reach[1] && std::abs(d.cr) < reach[2] ? 1
                                                                                              : 0;
-      // Steadiness asks for more than noise: a change that a person would see.
-      if (std::abs(d.y) < std::max(reach[0], 12.0f) && std::abs(d.cb) < std::max(reach[1], 6.0f) &&
-          std::abs(d.cr) < std::max(reach[2], 6.0f))
+      // Steadiness asks for more than noise, a change that a person would see, but not for more
+      // than any camera's noise.
+      if (std::abs(d.y) < std::clamp(reach[0], 12.0f, 24.0f) &&
+          std::abs(d.cb) < std::clamp(reach[1], 6.0f, 12.0f) &&
+          std::abs(d.cr) < std::clamp(reach[2], 6.0f, 12.0f))
         ++near;
     }
     bare.in.push_back(erode(mask, 2));

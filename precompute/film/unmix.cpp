@@ -129,12 +129,15 @@ void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
 
 void find_seeds(const ScreenModel& screen, const Patch& patch, const Evidence& e, Mask& seeds) {
   const std::size_t n = patch.cells();
+  // Deep inside less is enough, but not of a subject much stronger than the key: there half the
+  // strength is a translucent fin.
+  const float enough = screen.key_normaliser > 1.5f ? 0.8f : 0.5f;
   Mask sure(patch.width, patch.height);
   Mask likely(patch.width, patch.height);
   for (std::size_t i = 0; i < n; ++i) {
     const float score = std::max(e.key[i], 1.15f * e.bound[i]);
     sure.in[i] = patch.region.in[i] && score > 0.85f ? 1 : 0;
-    likely.in[i] = patch.region.in[i] && score > 0.5f ? 1 : 0;
+    likely.in[i] = patch.region.in[i] && score > enough ? 1 : 0;
   }
   seeds = erode(erode(dilate(sure, 1), 1), 1);
   if (screen.key < 0) add_inside(screen, patch, seeds);

@@ -68,6 +68,7 @@ CostTable make_transitions(const FeatureSet& set, const CostTable& d, int min_ba
 CostTable reversed(const CostTable& graph) {
   const std::size_t n = sample_count(graph);
   CostTable back;
+  back.kept = graph.kept;
   back.row_start.assign(n + 1, 0);
   for (const Transition& t : graph.transitions) ++back.row_start[t.to + 1];
   for (std::size_t i = 0; i < n; ++i) back.row_start[i + 1] += back.row_start[i];

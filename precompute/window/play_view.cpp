@@ -64,9 +64,9 @@ void draw_keys(Renderer& r, Vec2 middle, float size, const ControlMode& mode, Di
     const Vec2 below{top_left.x, top_left.y + 0.07f * size};
     r.draw_shape(box(below, {bottom_right.x, bottom_right.y + 0.09f * size},
                      srgb(0x3c4a54, 0.55f * amount), 0.2f * size));
-    const Color cap = lit ? srgb(0xffb347) : srgb(0xfbfdfe);
+    const Color cap = lit ? srgb(0xffb347) : served ? srgb(0xfbfdfe) : srgb(0xc3cace);
     r.draw_shape(box({top_left.x, top_left.y + sink}, {bottom_right.x, bottom_right.y + sink},
-                     faded(cap, (served ? 0.96f : 0.55f) * amount), 0.2f * size));
+                     faded(cap, amount), 0.2f * size));
     const Vec2 u = unit_vector(key.direction);
     const float t = 0.2f * size;
     const std::array<Vec2, 3> arrow = {

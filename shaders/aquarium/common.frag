@@ -3,8 +3,8 @@
 //
 // common.frag - stands before every effect of the tank: the view, noise, and the water in between.
 //
-// Inputs: view = (offset x, offset y, scale): frame pixel = tank pixel * scale + offset. Tank pixels:
-// 1280 x 720, y down, surface at 0. All colours linear.
+// Inputs: view = (offset x, offset y, scale): frame pixel = tank pixel * scale + offset. Tank
+// pixels: 1280 x 720, y down, surface at 0. All colours linear.
 uniform vec3 view;
 
 vec2 tank_at(vec2 frame_pixel) { return (frame_pixel - view.xy) / view.z; }

@@ -4,8 +4,8 @@
 // gravel.frag - the bed of the tank in perspective: fine gravel with river pebbles strewn on it.
 // Drawn once for every size of the window, over wall.frag.
 //
-// Inputs: common.frag; scene; stones[6] = (centre x, centre y, half width, half height), tank pixels:
-// what throws a shade. Output: rgb linear; alpha = how much of the light net falls on it.
+// Inputs: common.frag; scene; stones[6] = (centre x, centre y, half width, half height), tank
+// pixels: what throws a shade. Output: rgb linear; alpha = how much of the light net falls on it.
 uniform vec4 stones[6];
 
 const float kHorizon = 500.0;  // where the bed would meet infinity
@@ -50,10 +50,11 @@ vec3 bed(vec2 p) {
   float sharp = smoothstep(560.0, 700.0, p.y);
   vec4 under = pebbles(g / 11.0 + 3.7, 1.0, 0.72, sharp);
   vec4 fine = pebbles(g / 13.0, 1.0, 0.56, sharp);
-  vec4 large = pebbles(g / 40.0 + 7.3, 0.20 + 0.45 * smoothstep(0.4, 0.7, noise(g / 240.0)), 0.45, sharp);
+  float share = 0.20 + 0.45 * smoothstep(0.4, 0.7, noise(g / 240.0));
+  vec4 large = pebbles(g / 40.0 + 7.3, share, 0.45, sharp);
   vec3 c = under.rgb * 0.30;
   c = mix(c, fine.rgb, fine.a);
-  vec4 shadow = pebbles(g / 40.0 + 7.3 + vec2(-0.10, 0.10), 0.20 + 0.45 * smoothstep(0.4, 0.7, noise(g / 240.0)), 0.50, sharp);
+  vec4 shadow = pebbles(g / 40.0 + 7.3 + vec2(-0.10, 0.10), share, 0.50, sharp);
   c *= 1.0 - 0.55 * shadow.a;
   c = mix(c, large.rgb, large.a);
   return c * (0.55 + 0.85 * fbm(g / 170.0));
@@ -66,7 +67,8 @@ void main() {
   float cover = smoothstep(edge - 7.0, edge + 10.0, p.y);
   float shade = 1.0;
   for (int k = 0; k < 6; ++k) {
-    vec2 d = (p - stones[k].xy - vec2(0.20, 0.62) * stones[k].zw) / (stones[k].zw * vec2(1.25, 0.42));
+    vec2 foot = stones[k].xy + vec2(0.20, 0.62) * stones[k].zw;
+    vec2 d = (p - foot) / (stones[k].zw * vec2(1.25, 0.42));
     shade *= 1.0 - 0.78 * exp(-1.5 * dot(d, d));
   }
   float s = 0.30 / view.z;  // two samples a pixel: pebbles are small

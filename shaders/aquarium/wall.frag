@@ -17,12 +17,14 @@ void main() {
     float ridge = 588.0 - (100.0 - 16.0 * float(k)) * fbm(vec2(x, seed)) -
                   120.0 * side * side * fbm(vec2(x * 1.7, seed + 4.0));
     float blade = noise(vec2(p.x / 7.0 + seed + 5.0 * sin(p.y / 60.0 + seed), seed));
-    float weed = (blade - 0.25) * 230.0 * smoothstep(0.42, 0.75, noise(vec2(p.x / 130.0 + seed, 2.0 + seed)));
+    float patches = smoothstep(0.42, 0.75, noise(vec2(p.x / 130.0 + seed, 2.0 + seed)));
+    float weed = (blade - 0.25) * 230.0 * patches;
     float soft = 16.0 - 4.0 * float(k);
     float rock = smoothstep(ridge - soft, ridge + soft, p.y);
     float plant = smoothstep(-soft, soft, p.y - ridge + weed) * (1.0 - rock);
     c = mix(c, through_water(vec3(0.020, 0.075, 0.016), depth * 0.75, p), plant * 0.75);
-    c = mix(c, through_water(vec3(0.085, 0.08, 0.07) * (0.6 + 0.8 * noise(p / 27.0 + seed)), depth, p), rock);
+    vec3 face = vec3(0.075, 0.07, 0.06) * (0.75 + 0.5 * fbm(p / 60.0 + seed));
+    c = mix(c, through_water(face, depth, p), rock);
   }
   color = vec4(c, 0.0);
 }

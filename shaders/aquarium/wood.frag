@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// wood.frag - a root of driftwood: bowed, tapering limbs with bark. Drawn once for every size of the
-// window.
+// wood.frag - a root of driftwood: bowed, tapering limbs with bark. Drawn once for every size of
+// the window.
 //
 // Inputs: common.frag; scene. Output: rgb linear; alpha = how much of the light net falls on it.
 

@@ -251,12 +251,12 @@ std::vector<Hostile> mode_packs() {
 
 std::vector<Hostile> picture_packs() {
   const ByteVector bomb = compressed(ByteVector(std::size_t{64} << 20));
-  ByteVector glare(4 * 24 * 20);  // sample 102 is 22 x 20 or so; see below
-  glare[0] = 200;
-  const auto& last = testing::tiny_sprite_data().samples.back();
-  glare.resize(std::size_t{4} * last.width * last.height);
-  ByteVector two = compressed(ByteVector(glare.size()));
-  two.insert(two.end(), two.begin(), two.end());
+  const Sample last = testing::tiny_sprite_data().samples.back();
+  ByteVector glare(std::size_t{4} * last.width * last.height);
+  glare[0] = 200;  // where alpha is 0
+  const ByteVector one = compressed(ByteVector(glare.size()));
+  ByteVector two = one;
+  two.insert(two.end(), one.begin(), one.end());
   return {
       {"fidx-size", "103 pictures", damage_section([](auto& p) { p["FIDX"].bytes.pop_back(); })},
       {"reserved", "picture 4", damage_section(set("FIDX", frame_at(4) + 12, 1u))},

@@ -82,7 +82,7 @@ TEST_F(AquariumProgram, PlaysTwentyFramesHeadlessAndKeepsTheLast) {
 
 TEST_F(AquariumProgram, TheSameScriptAndSeedGiveTheSameLine) {
   const std::string arguments =
-      pack() + " --headless --frames 60 --size 64x36 --keys '0 right; 1 up' --seed ";
+      pack() + " --headless --frames 20 --size 32x18 --keys '0 right; 0.4 up' --seed ";
   const Outcome first = run(arguments + "4");
   ASSERT_EQ(first.code, 0) << first.text;
   EXPECT_EQ(run(arguments + "4").text, first.text);

@@ -5,6 +5,9 @@
 
 #include <optional>
 
+#include "support/gl_stage.h"
+#include "vsprite/compose.h"
+#include "vsprite/draw.h"
 #include "vsprite/sdl.h"
 
 namespace vsprite {
@@ -123,6 +126,33 @@ TEST_F(WindowTest, APadMayComeSteerAndGo) {
   push(-30000, 0);
   SDL_JoystickDetachVirtual(index);
   EXPECT_EQ(after_pump().direction(), Direction::None);
+}
+
+TEST(Gles, DrawsTheSameAsDesktopOpenGl) {
+  SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
+  ASSERT_EQ(SDL_InitSubSystem(SDL_INIT_VIDEO), 0) << SDL_GetError();
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+  SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+  SDL_Window* window = SDL_CreateWindow("es", 0, 0, 64, 64, SDL_WINDOW_OPENGL);
+  SDL_GLContext context = window != nullptr ? SDL_GL_CreateContext(window) : nullptr;
+  if (context != nullptr) {
+    Result<Renderer> renderer = make_renderer();
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    EXPECT_EQ(renderer->device().rfind("OpenGL ES", 0), 0u) << renderer->device();
+    Image canvas = make_image(64, 64, 40, 60, 90);
+    const Image picture = make_image(20, 20, 200, 100, 50, 128);
+    draw_picture(canvas, picture, {10.25f, 20.5f});
+    renderer->begin_frame(64, 64);
+    renderer->clear(srgb(0x283c5a));
+    renderer->draw_sprite({.image = picture, .position = {10.25f, 20.5f}});
+    renderer->end_frame();
+    EXPECT_LE(testing::largest_difference(renderer->read_pixels(), canvas), 2);
+  }
+  SDL_GL_DeleteContext(context);
+  SDL_DestroyWindow(window);
+  SDL_QuitSubSystem(SDL_INIT_VIDEO);
+  if (context == nullptr) GTEST_SKIP() << "no OpenGL ES 3 here: " << SDL_GetError();
 }
 
 TEST(Sound, OpensOrSaysThatThereIsNone) {

@@ -10,6 +10,7 @@
 #include "capture/choreography.h"
 #include "capture/goldfish.h"
 #include "capture/statistics.h"
+#include "film/video.h"
 #include "vsprite/image.h"
 
 namespace vsprite::capture {
@@ -149,6 +150,36 @@ TEST(Capture, BoundsHoldWhatIsDrawn) {
       }
     }
   }
+}
+
+/// Peak signal to noise of a decoded frame against what went to the encoder, dB.
+double psnr(const Frame& decoded, const Image& filmed) {
+  double sum = 0;
+  for (std::size_t i = 0; i < decoded.bgr.size(); ++i) {
+    const double d = decoded.bgr[i] - filmed.rgba[i / 3 * 4 + 2 - i % 3];
+    sum += d * d;
+  }
+  return 10 * std::log10(255.0 * 255 * static_cast<double>(decoded.bgr.size()) / sum);
+}
+
+TEST(Capture, TheBundledFilmIsThisFilm) {
+  Result<FilmReader> reader = FilmReader::open(VSPRITE_SOURCE_DIR "/assets/goldfish.mp4");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->info().fps_numerator, 30 * reader->info().fps_denominator);
+  Frame frame;
+  TruthFrame truth;
+  int frames = 0;
+  for (;; ++frames) {
+    const Result<bool> more = reader->read(frame);
+    ASSERT_TRUE(more) << more.error().message;
+    if (!*more) break;
+    if (frames % 480 != 7) continue;
+    film().render(frames, truth);
+    ASSERT_EQ(frame.width, truth.width);
+    ASSERT_EQ(frame.height, truth.height);
+    EXPECT_GT(psnr(frame, truth.composite), 30) << "frame " << frames;
+  }
+  EXPECT_EQ(frames, film().frame_count());
 }
 
 }  // namespace

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "film/matte.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "support/synthetic_film.h"
+
+namespace vsprite {
+namespace {
+
+using testing::Disc;
+using testing::SyntheticFilm;
+
+// Sixteen frames of a disc on its way over a blue screen, and the screen measured from them.
+struct Scene {
+  SyntheticFilm film;
+  std::vector<Disc> discs;
+  std::vector<Frame> frames;
+  ScreenModel screen;
+
+  Scene() {
+    for (int i = 0; i < 16; ++i) {
+      discs.push_back({70.0 + 11.3 * i, 90.0 + 3.7 * i});
+      frames.push_back(film.frame(i, {discs.back()}));
+    }
+    screen = *measure_screen(frames, {});
+  }
+};
+
+const Scene& scene() {
+  static const Scene made;
+  return made;
+}
+
+int alpha_of(const KeyedFrame& keyed, int x, int y) {
+  x -= keyed.crop.x;
+  y -= keyed.crop.y;
+  if (x < 0 || y < 0 || x >= keyed.crop.width || y >= keyed.crop.height) return 0;
+  return keyed.straight.rgba[static_cast<std::size_t>(4 * (y * keyed.crop.width + x) + 3)];
+}
+
+TEST(Matte, IsNearTheKnownMatte) {
+  double band = 0;
+  double rest = 0;
+  int band_count = 0;
+  int rest_count = 0;
+  for (std::size_t i = 0; i < scene().frames.size(); i += 3) {
+    Keyer keyer(scene().screen, {});
+    const KeyedFrame keyed = keyer.key(scene().frames[i], nullptr);
+    SyntheticFilm wide = scene().film;
+    wide.softness += 16;  // 8 px either side of the edge
+    for (int y = 0; y < wide.height; ++y)
+      for (int x = 0; x < wide.width; ++x) {
+        const double truth = scene().film.alpha(scene().discs[i], x, y);
+        const double reach = wide.alpha(scene().discs[i], x, y);
+        const double error = std::abs(alpha_of(keyed, x, y) / 255.0 - truth);
+        const bool near = reach > 0 && reach < 1;
+        (near ? band : rest) += error;
+        ++(near ? band_count : rest_count);
+      }
+    ASSERT_EQ(keyed.blobs.size(), 1u);
+    EXPECT_NEAR(keyed.blobs[0].anchor_x, scene().discs[i].x, 0.3);
+    EXPECT_NEAR(keyed.blobs[0].anchor_y, scene().discs[i].y, 0.3);
+  }
+  RecordProperty("band_error", std::to_string(band / band_count));
+  EXPECT_LT(band / band_count, 0.02);
+  EXPECT_LT(rest / rest_count, 0.0005);
+}
+
+TEST(Matte, KeepsTheSubjectsOwnColor) {
+  Keyer keyer(scene().screen, {});
+  const KeyedFrame keyed = keyer.key(scene().frames[5], nullptr);
+  for (std::size_t i = 0; i < keyed.labels.size(); ++i) {
+    const std::uint8_t* p = keyed.straight.rgba.data() + 4 * i;
+    if (p[3] < 128) continue;
+    ASSERT_NEAR(p[0], 225, 30);
+    ASSERT_NEAR(p[1], 120, 30);
+    ASSERT_NEAR(p[2], 40, 40) << "the screen's blue is taken out";
+  }
+}
+
+TEST(Matte, DropsSpecksAndFillsHoles) {
+  Frame frame = scene().frames[8];
+  const auto put = [&](int x, int y, int b, int g, int r) {
+    for (int k = 0; k < 4; ++k) {
+      std::uint8_t* p = frame.bgr.data() + 3 * ((y + k / 2) * frame.width + x + k % 2);
+      p[0] = static_cast<std::uint8_t>(b);
+      p[1] = static_cast<std::uint8_t>(g);
+      p[2] = static_cast<std::uint8_t>(r);
+    }
+  };
+  put(20, 200, 80, 100, 120);
+  const Disc& disc = scene().discs[8];
+  const int cx = static_cast<int>(disc.x) & ~1;
+  const int cy = static_cast<int>(disc.y) & ~1;
+  put(cx, cy, 120, 125, 130);
+  Keyer keyer(scene().screen, {});
+  const KeyedFrame keyed = keyer.key(frame, nullptr);
+  EXPECT_EQ(keyed.blobs.size(), 1u);
+  EXPECT_EQ(alpha_of(keyed, 20, 200), 0);
+  EXPECT_EQ(alpha_of(keyed, cx, cy), 255);
+}
+
+TEST(Matte, EmptyFrameGivesNothing) {
+  Keyer keyer(scene().screen, {});
+  const KeyedFrame keyed = keyer.key(scene().film.frame(99, {}), nullptr);
+  EXPECT_TRUE(keyed.blobs.empty());
+  EXPECT_TRUE(keyed.straight.rgba.empty());
+}
+
+TEST(Matte, BorderContactIsSeen) {
+  Keyer keyer(scene().screen, {});
+  const KeyedFrame keyed = keyer.key(scene().film.frame(99, {{20, 120}}), nullptr);
+  ASSERT_FALSE(keyed.blobs.empty());
+  EXPECT_TRUE(keyed.blobs[0].touches_border);
+}
+
+TEST(Matte, SameBytesFromAnyNumberOfThreads) {
+  const auto& frames = scene().frames;
+  const auto key_all = [&](std::size_t threads) {
+    std::vector<KeyedFrame> keyed(frames.size());
+    std::vector<std::thread> pool;
+    for (std::size_t t = 0; t < threads; ++t)
+      pool.emplace_back([&, t] {
+        Keyer keyer(scene().screen, {});
+        for (std::size_t i = t; i < frames.size(); i += threads)
+          keyed[i] = keyer.key(frames[i], i > 0 ? &frames[i - 1] : nullptr);
+      });
+    for (std::thread& thread : pool) thread.join();
+    return keyed;
+  };
+  const auto once = key_all(1);
+  for (const std::size_t threads : {std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
+    const auto again = key_all(threads);
+    for (std::size_t i = 0; i < once.size(); ++i) {
+      EXPECT_EQ(once[i].straight.rgba, again[i].straight.rgba) << i << " of " << threads;
+      EXPECT_EQ(once[i].labels, again[i].labels);
+      EXPECT_EQ(once[i].blobs[0].anchor_x, again[i].blobs[0].anchor_x);
+      EXPECT_EQ(once[i].difference, again[i].difference);
+    }
+  }
+}
+
+TEST(Matte, KeyNoneTakesTheWholeFrame) {
+  const auto screen = measure_screen(scene().frames, *parse_key("none"));
+  ASSERT_TRUE(screen);
+  Keyer keyer(*screen, {});
+  const KeyedFrame keyed = keyer.key(scene().frames[0], nullptr);
+  ASSERT_EQ(keyed.blobs.size(), 1u);
+  EXPECT_EQ(keyed.crop, (Rect{0, 0, 320, 240}));
+  EXPECT_FALSE(keyed.blobs[0].touches_border);
+  EXPECT_EQ(alpha_of(keyed, 0, 0), 255);
+}
+
+}  // namespace
+}  // namespace vsprite

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "film/plate.h"
+
+#include <gtest/gtest.h>
+
+#include "support/synthetic_film.h"
+
+namespace vsprite {
+namespace {
+
+using testing::Disc;
+using testing::SyntheticFilm;
+
+std::vector<Frame> crossing(const SyntheticFilm& scene, int count = 16) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < count; ++i) frames.push_back(scene.frame(i, {{60.0 + 12 * i, 90.0 + 4 * i}}));
+  return frames;
+}
+
+double mean_plate_error(const SyntheticFilm& scene, const ScreenModel& screen) {
+  double sum = 0;
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        sum += std::abs(screen.plate[static_cast<std::size_t>(3 * (y * scene.width + x) + 2 - c)] -
+                        scene.plate(c, x, y));
+  return sum / (3.0 * scene.width * scene.height);
+}
+
+TEST(Plate, ParsesTheKey) {
+  EXPECT_EQ(parse_key("auto")->kind, KeyKind::Auto);
+  EXPECT_EQ(parse_key("plate")->kind, KeyKind::Plate);
+  EXPECT_EQ(parse_key("none")->kind, KeyKind::None);
+  const auto color = parse_key("#12aBf0");
+  ASSERT_TRUE(color);
+  EXPECT_EQ(color->red, 0x12);
+  EXPECT_EQ(color->green, 0xAB);
+  EXPECT_EQ(color->blue, 0xF0);
+  for (const char* bad : {"", "green", "#12345", "#12345G", "#1234567"})
+    EXPECT_EQ(parse_key(bad).error().code, ErrorCode::BadSetting) << bad;
+}
+
+TEST(Plate, FindsTheUnevenBlueScreen) {
+  const SyntheticFilm scene;
+  const auto screen = measure_screen(crossing(scene), {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  EXPECT_EQ(screen->kind, KeyKind::Color);
+  EXPECT_EQ(screen->key, 2) << screen->reason;
+  EXPECT_LT(mean_plate_error(scene, *screen), 0.6);
+}
+
+// The prior of the screen's colour: a plain temporal median would show the subject.
+TEST(Plate, SeesBehindASubjectThatRests) {
+  const SyntheticFilm scene;
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i)
+    frames.push_back(scene.frame(i, {i < 12 ? Disc{160, 120} : Disc{60.0 + 4 * i, 60}}));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  EXPECT_LT(mean_plate_error(scene, *screen), 0.8);
+}
+
+TEST(Plate, TakesAStandingCameraForAPlate) {
+  SyntheticFilm scene;
+  std::vector<Frame> frames = crossing(scene);
+  // Stripes of many colours behind everything: no single screen.
+  for (Frame& f : frames)
+    for (int y = 0; y < f.height; ++y)
+      for (int x = 0; x < f.width; ++x) {
+        std::uint8_t* p = f.bgr.data() + 3 * (y * f.width + x);
+        const bool subject = p[2] > p[0] + 20;
+        if (subject) continue;
+        const int stripe = x / 16 * 37 % 160;
+        p[0] = static_cast<std::uint8_t>(40 + stripe);
+        p[1] = static_cast<std::uint8_t>(200 - stripe);
+        p[2] = static_cast<std::uint8_t>(60 + y / 30 * 20);
+      }
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  EXPECT_EQ(screen->kind, KeyKind::Plate) << screen->reason;
+}
+
+TEST(Plate, RefusesAFilmWithoutABackground) {
+  std::vector<Frame> frames;
+  std::uint32_t state = 7;
+  for (int i = 0; i < 12; ++i) {
+    Frame f{160, 120, i, std::vector<std::uint8_t>(3 * 160 * 120)};
+    for (int y = 0; y < 120; y += 8)
+      for (int x = 0; x < 160; x += 8) {
+        state = state * 1664525u + 1013904223u;
+        for (int k = 0; k < 64; ++k)
+          for (int c = 0; c < 3; ++c)
+            f.bgr[static_cast<std::size_t>(3 * ((y + k / 8) * 160 + x + k % 8) + c)] =
+                static_cast<std::uint8_t>(state >> (8 * c));
+      }
+    frames.push_back(std::move(f));
+  }
+  const auto screen = measure_screen(frames, {});
+  ASSERT_FALSE(screen) << screen->reason;
+  EXPECT_EQ(screen.error().code, ErrorCode::BadContent);
+}
+
+}  // namespace
+}  // namespace vsprite

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "control/solve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "similarity/random.h"
+
+namespace vsprite {
+namespace {
+
+// A ring of n samples with random jumps; the last sample was not kept.
+CostTable random_costs(std::uint32_t n, Random& random) {
+  CostTable costs;
+  costs.row_start.assign(1, 0);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      if (j == (i + 1) % n)
+        costs.transitions.push_back({j, 0});
+      else if (random.below(5) == 0)
+        costs.transitions.push_back({j, static_cast<float>(0.2 + random.unit())});
+    }
+    costs.row_start.push_back(static_cast<std::uint32_t>(costs.transitions.size()));
+  }
+  costs.row_start.push_back(costs.row_start.back());
+  costs.kept.assign(n, 1);
+  costs.kept.push_back(0);
+  return costs;
+}
+
+std::vector<Vec2> random_velocities(std::size_t n, Random& random) {
+  std::vector<Vec2> v;
+  for (std::size_t i = 0; i < n; ++i) {
+    v.push_back({static_cast<float>(100 * random.unit() - 50),
+                 static_cast<float>(100 * random.unit() - 50)});
+  }
+  return v;
+}
+
+// The paper's literal iteration of F from F = T, edge by edge.
+std::vector<double> iterate(const CostTable& costs, std::span<const Vec2> v, double v0, Direction l,
+                            double w1, double alpha) {
+  std::vector<double> values(costs.kept.size(), 0);
+  for (int sweep = 0; sweep < 3000; ++sweep) {
+    std::vector<double> after(values.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      for (std::uint32_t e = costs.row_start[i]; e < costs.row_start[i + 1]; ++e) {
+        const Transition& t = costs.transitions[e];
+        const double f = sweep == 0
+                             ? static_cast<double>(t.cost)
+                             : static_cast<double>(t.cost) + w1 * direction_cost(v[t.to], v0, l) +
+                                   alpha * values[t.to];
+        after[i] = std::min(after[i], f);
+      }
+    }
+    values = after;
+  }
+  return values;
+}
+
+TEST(Solve, AgreesWithThePapersIterationWithinTheCertifiedBound) {
+  Random random{3};
+  const CostTable costs = random_costs(60, random);
+  const auto v = random_velocities(61, random);
+  const SolveConfig config{.alpha = 0.97, .w1 = 0.5, .cap = 10, .free_steps = 2};
+  const auto solution = solve(costs, v, 20, config);
+  ASSERT_TRUE(solution);
+  EXPECT_LT(solution->residual, 1e-5);
+  for (int d = 0; d < kDirectionCount; ++d) {
+    const auto due = iterate(costs, v, 20, static_cast<Direction>(d), 0.5, 0.97);
+    const float* values = solution->values.data() + static_cast<std::size_t>(d) * 3 * 61;
+    for (std::size_t i = 0; i < 60; ++i) {
+      EXPECT_NEAR(static_cast<double>(values[i]), due[i], solution->error_bound + 1e-9);
+    }
+    EXPECT_TRUE(std::isinf(values[60]));
+  }
+}
+
+TEST(Solve, GivesTheSameTablesAtEveryThreadCount) {
+  Random random{4};
+  const CostTable costs = random_costs(50, random);
+  const auto v = random_velocities(51, random);
+  const auto one = solve(costs, v, 20, {}, 1), four = solve(costs, v, 20, {}, 4);
+  ASSERT_TRUE(one && four);
+  EXPECT_EQ(one->values, four->values);
+  EXPECT_EQ(one->next, four->next);
+}
+
+TEST(Solve, NeverEmptiesARowByTheCap) {
+  Random random{5};
+  const CostTable costs = random_costs(50, random);
+  const auto v = random_velocities(51, random);
+  const auto solution = solve(costs, v, 20, {.cap = 1e-6});
+  ASSERT_TRUE(solution);
+  for (std::size_t k = 0; k < solution->next.size(); ++k) {
+    EXPECT_EQ(solution->next[k] == kNoSample, k % 51 == 50);
+  }
+}
+
+TEST(Solve, RefusesAnAlphaOfOne) {
+  Random random{6};
+  const CostTable costs = random_costs(5, random);
+  const auto v = random_velocities(6, random);
+  for (double alpha : {1.0, -0.1, std::numeric_limits<double>::quiet_NaN()}) {
+    const auto solution = solve(costs, v, 20, {.alpha = alpha});
+    ASSERT_FALSE(solution);
+    EXPECT_EQ(solution.error().code, ErrorCode::BadSetting);
+  }
+}
+
+}  // namespace
+}  // namespace vsprite
