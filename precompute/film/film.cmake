@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
   film/video.cpp
+  film/coded_size.cpp
   film/light.cpp
   film/grid.cpp
   film/silhouette.cpp
