@@ -71,11 +71,12 @@ std::optional<CodedSize> h264_size(Bits bits) {
   bits.skip(16);
   bits.golomb();
   bool high = false;
+  std::int64_t chroma = 1;
   for (const std::uint32_t p : {100u, 110u, 122u, 244u, 44u, 83u, 86u, 118u, 128u, 138u})
     high = high || profile == p;
   if (!high && profile != 66 && profile != 77 && profile != 88) return std::nullopt;
   if (high) {
-    const std::int64_t chroma = bits.golomb();
+    chroma = bits.golomb();
     if (chroma == 3) bits.skip(1);
     bits.golomb();
     bits.golomb();
@@ -96,8 +97,15 @@ std::optional<CodedSize> h264_size(Bits bits) {
   const std::int64_t columns = bits.golomb() + 1;
   const std::int64_t rows = bits.golomb() + 1;
   const std::int64_t fields = bits.take(1) ? 1 : 2;
+  bits.skip(fields == 2 ? 2 : 1);
+  std::int64_t cut[4] = {};  // left, right, top, bottom
+  if (bits.take(1))
+    for (std::int64_t& side : cut) side = bits.golomb();
   if (bits.past()) return std::nullopt;
-  return sane(16 * columns, 16 * rows * fields);
+  const std::int64_t across = chroma == 1 || chroma == 2 ? 2 : 1;
+  const std::int64_t down = (chroma == 1 ? 2 : 1) * fields;
+  return sane(16 * columns - across * (cut[0] + cut[1]),
+              16 * rows * fields - down * (cut[2] + cut[3]));
 }
 
 std::optional<CodedSize> h265_size(Bits bits) {

@@ -14,7 +14,7 @@
 namespace vsprite::detail {
 
 struct CodedSize {
-  int width = 0, height = 0;  ///< px, without cropping
+  int width = 0, height = 0;  ///< px; in H.264 less what is cropped
   friend bool operator==(const CodedSize&, const CodedSize&) = default;
 };
 
