@@ -73,15 +73,16 @@ bool SurfaceFit::solve(Surface& surface) const {
   return true;
 }
 
-// The residual of the sure background, every fourth cell both ways, in four rounds. Each round
+// The residual of the sure background, some thousand cells of it, in four rounds. Each round
 // believes what lies near the round before.
 Surface fit_drift(const ScreenModel& screen, const Grid& grid, float reach) {
   Surface drift;
+  const int step = std::max(4, grid.width / 40);
   for (const float limit : {4 * reach, 2 * reach, reach, reach}) {
     SurfaceFit fit;
-    for (int y = 2; y < grid.height; y += 4) {
+    for (int y = step / 2; y < grid.height; y += step) {
       const double v = scaled(y, grid.height);
-      for (int x = 2; x < grid.width; x += 4) {
+      for (int x = step / 2; x < grid.width; x += step) {
         const double u = scaled(x, grid.width);
         const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
                               static_cast<std::size_t>(x);
@@ -95,7 +96,7 @@ Surface fit_drift(const ScreenModel& screen, const Grid& grid, float reach) {
       }
     }
     // Too little screen in sight: the film's plate stands.
-    if (fit.count() * 16 * 20 < static_cast<int>(grid.cells())) return Surface{};
+    if (fit.count() * step * step * 20 < static_cast<int>(grid.cells())) return Surface{};
     fit.solve(drift);
   }
   return drift;

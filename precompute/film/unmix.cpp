@@ -15,9 +15,10 @@ namespace vsprite::detail {
 namespace {
 
 constexpr int kMargin = 4;              // cells around the silhouette
-constexpr float kSpill = 0.05f;         // share of the plate in a foreground near it
+constexpr float kSpill = 0.05f;         // share of the plate in a foreground near it, and at the
+constexpr float kRimSpill = 0.1f;       // rim, where screen light falls from behind
 constexpr float kShading = 0.1f;        // relative sigma of the foreground's brightness
-constexpr float kHue = 0.1f;            // sigma of its colour, relative to its luma
+constexpr float kHue = 0.05f;           // sigma of its colour, relative to its luma
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one
 constexpr float kGlobalWeight = 1e-4f;  // of the whole patch
 
@@ -440,7 +441,7 @@ void unmix(const ScreenModel& screen, Patch& patch) {
   }
   weigh_rim(patch, weight, color);
   gather_moments(patch, weight, color, moments);
-  solve_alpha(patch, moments, evidence, 0, nullptr);
+  solve_alpha(patch, moments, evidence, kRimSpill, nullptr);
 }
 
 }  // namespace vsprite::detail

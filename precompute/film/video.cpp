@@ -25,6 +25,9 @@
 #include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
+#include <optional>
+
+#include "film/coded_size.h"
 
 namespace vsprite {
 namespace {
@@ -42,7 +45,7 @@ constexpr char kCaptureOptions[] =
     "mpeg,"
     "mpegvideo,flv,ogg,asf,gif,yuv4mpegpipe,nut,h264,hevc,m4v,ivf,mxf,dv,rm,swf,obu,apng,webp_pipe";
 
-enum class Kind : std::int32_t { Film, NoFilm, Frame, End, OutOfMemory };
+enum class Kind : std::int32_t { Film, NoFilm, Frame, Resized, End, OutOfMemory };
 
 struct Hello {
   Kind kind;
@@ -107,6 +110,29 @@ void isolate(int& out, pid_t parent) {
   setrlimit(RLIMIT_CORE, &limit);
 }
 
+// Reads the film's packets beside its frames, undecoded. Packet k is looked at before frame k is
+// decoded: where the size changes the coding starts anew, so that k is the same for both.
+class SizeWatch {
+ public:
+  explicit SizeWatch(const std::string& name) : packets_(name, cv::CAP_FFMPEG) {
+    open_ = packets_.isOpened() && packets_.set(cv::CAP_PROP_FORMAT, -1);
+  }
+  /// The next packet's size where it differs from the first one's.
+  std::optional<detail::CodedSize> changed() {
+    if (!open_ || !packets_.read(packet_) || !packet_.isContinuous()) return std::nullopt;
+    const auto size = detail::find_coded_size({packet_.data, packet_.total() * packet_.elemSize()});
+    if (!size) return std::nullopt;
+    if (!first_) first_ = size;
+    return *size == *first_ ? std::nullopt : size;
+  }
+
+ private:
+  cv::VideoCapture packets_;
+  cv::Mat packet_;
+  std::optional<detail::CodedSize> first_;
+  bool open_ = false;
+};
+
 void decode(int out, const std::string& path) {
   setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 1);
   setenv("OPENCV_FFMPEG_CAPTURE_OPTIONS", kCaptureOptions, 1);
@@ -125,8 +151,15 @@ void decode(int out, const std::string& path) {
   const Hello hello{Kind::Film, image.cols, image.rows, sane ? static_cast<int>(count) : 0,
                     capture.get(cv::CAP_PROP_FPS)};
   if (!write_all(out, &hello, sizeof hello)) return;
+  SizeWatch watch(name);
+  watch.changed();
   do {
     send_frame(out, image);
+    if (const auto size = watch.changed()) {
+      const FrameHead resized{Kind::Resized, size->width, size->height};
+      write_all(out, &resized, sizeof resized);
+      return;
+    }
   } while (capture.read(image) && image.type() == CV_8UC3);
   const FrameHead end{Kind::End, 0, 0};
   write_all(out, &end, sizeof end);
@@ -328,7 +361,8 @@ Result<bool> FilmReader::read(Frame& frame) {
   if (const Pulled how = film.pull(&head, sizeof head); how != Pulled::All)
     return film.failure(how);
   if (head.kind == Kind::End) return film.finish();
-  if (head.width != film.info.width || head.height != film.info.height) {
+  if (head.kind == Kind::Resized || head.width != film.info.width ||
+      head.height != film.info.height) {
     film.stop();
     return Error{ErrorCode::CorruptData,
                  film.path + ": frame " + std::to_string(film.next) + " is " +

@@ -43,8 +43,8 @@ class FilmReader {
 
   const FilmInfo& info() const noexcept;
   /// The next frame into `frame`; false at the end. Errors: DecoderFailed (died, hung for 30 s),
-  /// CorruptData (the frame size changes, where OpenCV shows it: 4.6 crops or scales H.264
-  /// silently; fewer frames than 0.98 x claimed - 2 arrived), OutOfMemory.
+  /// CorruptData (the frame size changes, told from the packets of H.264, H.265, MPEG-1, MPEG-2
+  /// and JPEG films; fewer frames than 0.98 x claimed - 2 arrived), OutOfMemory.
   Result<bool> read(Frame& frame);
 
  private:

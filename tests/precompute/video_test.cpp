@@ -99,6 +99,33 @@ TEST(Video, TruncatedFilmIsCorrupt) {
   EXPECT_EQ(count.error().code, ErrorCode::CorruptData) << count.error().message;
 }
 
+// Two sizes one after the other in one stream, as a broken cut or a screen recorder leaves them.
+TEST(Video, ChangedFrameSizeIsRefusedWhereItChanges) {
+  const TempFolder folder;
+  for (const std::string codec : {"libx264 -f h264", "mpeg2video -f mpeg2video"}) {
+    const std::string large = folder.file("large");
+    const std::string small = folder.file("small");
+    const std::string options = "-pix_fmt yuv420p -c:v " + codec;
+    if (!encode_film(counting_frames(30, 320, 240), large, options) ||
+        !encode_film(counting_frames(30, 160, 120), small, options))
+      GTEST_SKIP() << "no ffmpeg";
+    const std::string path = folder.file(codec.starts_with("lib") ? "two.h264" : "two.m2v");
+    {
+      std::ofstream two(path, std::ios::binary);
+      two << std::ifstream(large, std::ios::binary).rdbuf()
+          << std::ifstream(small, std::ios::binary).rdbuf();
+    }
+    auto film = FilmReader::open(path);
+    ASSERT_TRUE(film) << codec << ": " << film.error().message;
+    const auto count = read_all(*film);
+    ASSERT_FALSE(count) << codec << ": " << *count;
+    EXPECT_EQ(count.error().code, ErrorCode::CorruptData);
+    EXPECT_NE(count.error().message.find("frame 30 is 160 x 120 px, the first 320 x 240"),
+              std::string::npos)
+        << codec << ": " << count.error().message;
+  }
+}
+
 TEST(Video, KilledDecoderIsNamedAndReaped) {
   const TempFolder folder;
   const std::string path = folder.file("long.mp4");
