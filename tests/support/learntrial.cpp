@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// learntrial FILM CACHE [STRIPS.png [count [w1 [cap]]]] - what a film teaches: labels, classifier,
-// transitions, tables and how they steer, printed; film strips of random jumps (i-1, i | j, j+1) to
-// look at. CACHE keeps the keyed samples between runs.
+// learntrial WORK [STRIPS.png [count [w1 [cap]]]] - what a film teaches: labels, classifier,
+// transitions, tables and how they steer, printed; film strips of random jumps (i-1, i | j, j+1,
+// then i+1 as filmed) to look at. WORK: a work folder whose stage `segment` has run. `-` for no
+// strips.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,14 +14,12 @@
 
 #include "control/response.h"
 #include "control/solve.h"
-#include "film/extract.h"
-#include "film/matte.h"
-#include "film/plate.h"
-#include "film/video.h"
 #include "similarity/features.h"
 #include "similarity/label.h"
 #include "similarity/random.h"
 #include "similarity/transitions.h"
+#include "tool/pictures.h"
+#include "tool/project.h"
 #include "vsprite/actor.h"
 
 using namespace vsprite;
@@ -42,110 +41,21 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Result<std::vector<Frame>> spread_frames(const std::string& path, int count) {
-  auto film = FilmReader::open(path);
-  if (!film) return film.error();
-  const int step = std::max(film->info().claimed_frames / count, 1);
-  std::vector<Frame> frames;
-  Frame frame;
-  for (;;) {
-    auto more = film->read(frame);
-    if (!more) return more.error();
-    if (!*more) return frames;
-    if (frame.index % step == 0) frames.push_back(frame);
+Result<Film> load_film(const std::string& folder) {
+  const auto project = Project::look(folder);
+  if (!project) return project.error();
+  const auto facts = project->film();
+  if (!facts) return facts.error();
+  auto rows = project->samples();
+  if (!rows) return rows.error();
+  Film film{facts->fps(), std::move(*rows), {}};
+  PictureReader reader(*project, film.rows);
+  for (int i = 0; i < static_cast<int>(film.rows.size()); ++i) {
+    auto picture = reader.picture(i);
+    if (!picture) return picture.error();
+    film.pictures.push_back(std::move(*picture));
   }
-}
-
-// Keys the whole film; `look` sees every keyed frame.
-Result<void> key_film(const std::string& path, const ScreenModel& screen,
-                      const std::function<void(const KeyedFrame&)>& look) {
-  auto film = FilmReader::open(path);
-  if (!film) return film.error();
-  Keyer keyer(screen, {});
-  Frame frame, before;
-  for (;;) {
-    auto more = film->read(frame);
-    if (!more) return more.error();
-    if (!*more) return {};
-    look(keyer.key(frame, frame.index > 0 ? &before : nullptr));
-    std::swap(frame, before);
-  }
-}
-
-Result<Film> segment_film(const std::string& path) {
-  auto frames = spread_frames(path, 50);
-  if (!frames) return frames.error();
-  auto screen = measure_screen(*frames, {});
-  if (!screen) return screen.error();
-  std::printf("%s\n", screen->reason.c_str());
-  std::vector<FrameSummary> summaries;
-  auto ok = key_film(path, *screen, [&](const KeyedFrame& keyed) {
-    summaries.push_back({keyed.index, keyed.blobs, keyed.difference});
-  });
-  if (!ok) return ok.error();
-  auto info = FilmReader::open(path)->info();
-  Film film;
-  film.fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
-  auto extraction = extract(summaries, film.fps, path, {});
-  if (!extraction) return extraction.error();
-  std::map<int, std::size_t> row_of;
-  for (std::size_t i = 0; i < extraction->rows.size(); ++i) row_of[extraction->rows[i].frame] = i;
-  film.rows = extraction->rows;
-  film.pictures.resize(film.rows.size());
-  ok = key_film(path, *screen, [&](const KeyedFrame& keyed) {
-    const auto it = row_of.find(keyed.index);
-    if (it == row_of.end()) return;
-    film.pictures[it->second] =
-        cut_sample(keyed, extraction->labels[it->second], film.rows[it->second]);
-  });
-  if (!ok) return ok.error();
   return film;
-}
-
-void save(const std::string& path, const Film& film) {
-  std::ofstream out(path, std::ios::binary);
-  const auto put = [&](auto v) { out.write(reinterpret_cast<const char*>(&v), sizeof v); };
-  put(film.fps);
-  put(film.rows.size());
-  for (std::size_t i = 0; i < film.rows.size(); ++i) {
-    const SampleRow& r = film.rows[i];
-    for (int v : {r.sample, r.clip, r.frame, r.duration}) put(v);
-    for (double v : {r.left, r.top, r.width, r.height, r.anchor_x, r.anchor_y, r.velocity_x,
-                     r.velocity_y, r.area, r.scale}) {
-      put(v);
-    }
-    put(film.pictures[i].width);
-    put(film.pictures[i].height);
-    out.write(reinterpret_cast<const char*>(film.pictures[i].rgba.data()),
-              static_cast<std::streamsize>(film.pictures[i].rgba.size()));
-  }
-}
-
-bool load(const std::string& path, Film& film) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return false;
-  const auto get = [&](auto& v) { in.read(reinterpret_cast<char*>(&v), sizeof v); };
-  std::size_t n = 0;
-  get(film.fps);
-  get(n);
-  film.rows.resize(n);
-  film.pictures.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    SampleRow& r = film.rows[i];
-    for (int* v : {&r.sample, &r.clip, &r.frame, &r.duration}) get(*v);
-    for (double* v : {&r.left, &r.top, &r.width, &r.height, &r.anchor_x, &r.anchor_y, &r.velocity_x,
-                      &r.velocity_y, &r.area, &r.scale}) {
-      get(*v);
-    }
-    Image& image = film.pictures[i];
-    get(image.width);
-    get(image.height);
-    image.rgba.resize(4u * static_cast<std::size_t>(image.width) *
-                      static_cast<std::size_t>(image.height));
-    in.read(reinterpret_cast<char*>(image.rgba.data()),
-            static_cast<std::streamsize>(image.rgba.size()));
-  }
-  return in.good();
 }
 
 // The picture of a sample, aligned at its anchor in a square of `side`, over a mid grey.
@@ -278,14 +188,10 @@ void print_sprite(const Sprite& sprite) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return 2;
-  Film film;
-  if (!load(argv[2], film)) {
-    auto segmented = segment_film(argv[1]);
-    if (!segmented) return fail(segmented.error());
-    film = std::move(*segmented);
-    save(argv[2], film);
-  }
+  if (argc < 2) return 2;
+  auto loaded = load_film(argv[1]);
+  if (!loaded) return fail(loaded.error());
+  const Film film = std::move(*loaded);
   double start = seconds();
   const FeatureSet set = make_feature_set(film.rows, film.fps, kDefaultGrid, [&](int i) {
     return film.pictures[static_cast<std::size_t>(i)];
@@ -324,11 +230,11 @@ int main(int argc, char** argv) {
               static_cast<std::size_t>(stats.transitions), stats.kept, stats.lost_clip_end,
               stats.lost_dead_end, stats.lost_unreachable, seconds() - start);
   for (const std::string& reason : stats.reasons) std::printf("  %s\n", reason.c_str());
-  if (argc > 3 && argv[3][0] != '-')
-    write_strips(film, set, *costs, argv[3], argc > 4 ? std::atoi(argv[4]) : 20);
+  if (argc > 2 && argv[2][0] != '-')
+    write_strips(film, set, *costs, argv[2], argc > 3 ? std::atoi(argv[3]) : 20);
   SolveConfig config;
-  if (argc > 5) config.w1 = std::atof(argv[5]);
-  if (argc > 6) config.cap = std::atof(argv[6]);
+  if (argc > 4) config.w1 = std::atof(argv[4]);
+  if (argc > 5) config.cap = std::atof(argv[5]);
   std::vector<Vec2> velocities;
   for (const FeatureSample& s : set.samples) velocities.push_back({s.velocity_x, s.velocity_y});
   start = seconds();
