@@ -222,7 +222,7 @@ double direction_cost(Vec2 velocity, double v0, Direction direction) noexcept {
   const auto x = static_cast<double>(velocity.x), y = static_cast<double>(velocity.y);
   const double f = std::min(1.0, std::sqrt(x * x + y * y) / v0);
   if (direction == Direction::None) return 0;
-  if (direction == Direction::Rest) return kPi * f;
+  if (direction == Direction::Rest) return kPi * f * f;
   // The heading is in (-pi, pi], the command in [0, 2 pi): up to 11/4 pi apart before wrapping.
   const double apart = std::fabs(angle_of(x, y) - static_cast<int>(direction) * (kPi / 4));
   const double d = apart > 2 * kPi ? apart - 2 * kPi : apart;

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // learntrial WORK [STRIPS.png [count [w1 [cap]]]] - what a film teaches: labels, classifier,
-// transitions, tables and how they steer, printed; film strips of random jumps (i-1, i | j, j+1,
-// then i+1 as filmed) to look at. WORK: a work folder whose stage `segment` has run. `-` for no
-// strips.
+// transitions, tables and how they steer, printed; film strips of jumps and of a turn to look at.
+// WORK: a work folder whose stage `segment` has run. `-` for no strips.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -76,46 +75,6 @@ void paint(const Film& film, std::size_t i, int side, Image& sheet, int left, in
   }
 }
 
-// Random jumps, cheapest first: i-1, i | j, j+1 as shown, then i+1 as filmed.
-void write_strips(const Film& film, const FeatureSet& set, const CostTable& costs, const char* path,
-                  int count) {
-  struct Jump {
-    float cost;
-    std::size_t i, j;
-  };
-  std::vector<Jump> all, jumps;
-  for (std::size_t i = 0; i + 1 < costs.row_start.size(); ++i) {
-    for (std::uint32_t e = costs.row_start[i]; e < costs.row_start[i + 1]; ++e) {
-      const Transition& t = costs.transitions[e];
-      if (t.cost > 0) all.push_back({t.cost, i, t.to});
-    }
-  }
-  Random random{7};
-  for (int k = 0; k < count && !all.empty(); ++k) jumps.push_back(all[random.below(all.size())]);
-  std::sort(jumps.begin(), jumps.end(),
-            [](const Jump& a, const Jump& b) { return a.cost < b.cost; });
-  const int side = std::min(200, static_cast<int>(set.cell * set.grid * film.rows[0].scale) + 2);
-  const int columns = 2, per = 5, rows = (count + columns - 1) / columns;
-  Image sheet{columns * (per * side + 12), rows * (side + 4), {}};
-  sheet.rgba.assign(4u * static_cast<std::size_t>(sheet.width * sheet.height), 150);
-  for (std::size_t p = 3; p < sheet.rgba.size(); p += 4) sheet.rgba[p] = 255;
-  for (int k = 0; k < static_cast<int>(jumps.size()); ++k) {
-    const Jump& jump = jumps[static_cast<std::size_t>(k)];
-    const int left = k / rows * (per * side + 12), top = k % rows * (side + 4);
-    const std::size_t shown[per] = {jump.i > 0 ? jump.i - 1 : 0, jump.i, jump.j,
-                                    std::min(jump.j + 1, film.rows.size() - 1), jump.i + 1};
-    for (int c = 0; c < per; ++c) paint(film, shown[c], side, sheet, left + c * side, top);
-    std::printf("  strip %2d: %5zu -> %5zu T %.2f\n", k, jump.i, jump.j,
-                static_cast<double>(jump.cost));
-  }
-  auto png = encode_png(sheet);
-  if (png) {
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(png->data()),
-               static_cast<std::streamsize>(png->size()));
-  }
-}
-
 SpriteData sprite_data(const Film& film, const CostTable& costs, const Solution& solution) {
   SpriteData data;
   data.fps_numerator = static_cast<std::uint32_t>(film.fps * 1000);
@@ -151,6 +110,53 @@ SpriteData sprite_data(const Film& film, const CostTable& costs, const Solution&
   mode.next = solution.next;
   data.modes.push_back(mode);
   return data;
+}
+
+// What a player sees: jumps of an hour of random steering out of moving samples, cheapest first
+// (i-1, i | j, j+1, then i+1 as filmed), then a turn from right to left, every second tick.
+void write_strips(const Film& film, const FeatureSet& set, const Sprite& sprite, const char* path,
+                  int count) {
+  struct Jump {
+    double cost;
+    std::size_t i, j;
+  };
+  std::vector<TraceRow> trace;
+  measure_steering(sprite, 0, random_script(3600, 1.5, 4, film.fps, 1), 100000, 1, &trace);
+  std::vector<Jump> all, jumps;
+  for (std::size_t t = 1; t < trace.size(); ++t) {
+    const std::size_t i = trace[t - 1].sample;
+    const bool moves = static_cast<double>(set.samples[i].speed) > set.moving_speed;
+    if (trace[t].cost > 0 && moves) all.push_back({trace[t].cost, i, trace[t].sample});
+  }
+  Random random{7};
+  for (int k = 0; k < count && !all.empty(); ++k) jumps.push_back(all[random.below(all.size())]);
+  std::sort(jumps.begin(), jumps.end(),
+            [](const Jump& a, const Jump& b) { return a.cost < b.cost; });
+  constexpr int kPer = 5, kColumns = 2, kTurnRows = 3;
+  const int side = std::min(200, static_cast<int>(set.cell * set.grid * film.rows[0].scale) + 2);
+  const int rows = (count + kColumns - 1) / kColumns, wide = kPer * side + 12;
+  Image sheet{kColumns * wide, (rows + kTurnRows) * (side + 4), {}};
+  sheet.rgba.assign(4u * static_cast<std::size_t>(sheet.width * sheet.height), 150);
+  for (std::size_t p = 3; p < sheet.rgba.size(); p += 4) sheet.rgba[p] = 255;
+  for (int k = 0; k < static_cast<int>(jumps.size()); ++k) {
+    const Jump& jump = jumps[static_cast<std::size_t>(k)];
+    const int left = k / rows * wide, top = k % rows * (side + 4);
+    const std::size_t shown[kPer] = {jump.i > 0 ? jump.i - 1 : 0, jump.i, jump.j,
+                                     std::min(jump.j + 1, film.rows.size() - 1), jump.i + 1};
+    for (int c = 0; c < kPer; ++c) paint(film, shown[c], side, sheet, left + c * side, top);
+    std::printf("  strip %2d: %5zu -> %5zu T %.2f\n", k, jump.i, jump.j, jump.cost);
+  }
+  measure_steering(sprite, 0, *parse_key_script("0 right; 4 left", film.fps), 300, 1, &trace);
+  const auto key = trace.size() - 300 + static_cast<std::size_t>(4 * film.fps);
+  for (int k = 0; k < kTurnRows * kColumns * kPer; ++k) {
+    const TraceRow& row = trace[std::min(key + 2 * static_cast<std::size_t>(k), trace.size() - 1)];
+    const int per_row = kColumns * kPer;
+    paint(film, row.sample, side, sheet, k % per_row * side, (rows + k / per_row) * (side + 4));
+  }
+  const auto png = encode_png(sheet);
+  if (!png) return;
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
 }
 
 void print_sprite(const Sprite& sprite) {
@@ -230,8 +236,6 @@ int main(int argc, char** argv) {
               static_cast<std::size_t>(stats.transitions), stats.kept, stats.lost_clip_end,
               stats.lost_dead_end, stats.lost_unreachable, seconds() - start);
   for (const std::string& reason : stats.reasons) std::printf("  %s\n", reason.c_str());
-  if (argc > 2 && argv[2][0] != '-')
-    write_strips(film, set, *costs, argv[2], argc > 3 ? std::atoi(argv[3]) : 20);
   SolveConfig config;
   if (argc > 4) config.w1 = std::atof(argv[4]);
   if (argc > 5) config.cap = std::atof(argv[5]);
@@ -245,5 +249,7 @@ int main(int argc, char** argv) {
   auto sprite = make_sprite(sprite_data(film, *costs, *solution));
   if (!sprite) return fail(sprite.error());
   print_sprite(*sprite);
+  if (argc > 2 && argv[2][0] != '-')
+    write_strips(film, set, *sprite, argv[2], argc > 3 ? std::atoi(argv[3]) : 20);
   return 0;
 }
