@@ -50,6 +50,7 @@ Graph cap_costs(const CostTable& costs, double cap) {
 struct Choice {
   double value = kInfinity;
   std::uint32_t to = kNoSample;
+  double cost = 0;  // T + w1 a of the step
 };
 template <class Values>
 Choice best_edge(const Graph& graph, std::span<const double> state_cost, double alpha,
@@ -57,9 +58,9 @@ Choice best_edge(const Graph& graph, std::span<const double> state_cost, double 
   Choice best;
   for (std::uint32_t e = graph.row_start[i]; e < graph.row_start[i + 1]; ++e) {
     const Transition& t = graph.edges[e];
-    const double f =
-        static_cast<double>(t.cost) + state_cost[t.to] + alpha * static_cast<double>(values[t.to]);
-    if (f < best.value) best = {f, t.to};
+    const double cost = static_cast<double>(t.cost) + state_cost[t.to];
+    const double f = cost + alpha * static_cast<double>(values[t.to]);
+    if (f < best.value) best = {f, t.to, cost};
   }
   return best;
 }
@@ -125,7 +126,7 @@ std::vector<double> solve_constrained(const Graph& graph, std::span<const double
         continue;
       }
       policy.to[i] = best.to;
-      policy.cost[i] = best.value - alpha * values[best.to];
+      policy.cost[i] = best.cost;
       values[i] = best.value;
       changed = true;
     }
@@ -221,7 +222,7 @@ double direction_cost(Vec2 velocity, double v0, Direction direction) noexcept {
   const auto x = static_cast<double>(velocity.x), y = static_cast<double>(velocity.y);
   const double f = std::min(1.0, std::sqrt(x * x + y * y) / v0);
   if (direction == Direction::None) return 0;
-  if (direction == Direction::Rest) return kPi * f;
+  if (direction == Direction::Rest) return kPi * f * f;
   // The heading is in (-pi, pi], the command in [0, 2 pi): up to 11/4 pi apart before wrapping.
   const double apart = std::fabs(angle_of(x, y) - static_cast<int>(direction) * (kPi / 4));
   const double d = apart > 2 * kPi ? apart - 2 * kPi : apart;

@@ -45,6 +45,7 @@ TEST(Features, AlphaCountsTheCellsThatDiffer) {
 TEST(Features, AngleFadesAtLowSpeed) {
   SampleRow right, left;
   right.velocity_x = 100, left.velocity_x = -1;
+  right.area = left.area = 100;  // side 10 px: faster than 2.5 px/s moves
   const FeatureSet set = make_feature_set({right, left}, 30, 16, [](int) { return Image{}; });
   EXPECT_NEAR(features(set, 0, 1)[kAngle], kPi / set.v0, 1e-5);
 }

@@ -36,7 +36,7 @@ inline FeatureSet make_creature(int count, int clip, int grid = 16) {
         if (u * u / 100 + v * v / 16 > 1) continue;
         std::uint8_t* p = image.rgba.data() + 4 * (24 * y + x);
         p[0] = static_cast<std::uint8_t>(120 + 12 * u);
-        p[1] = static_cast<std::uint8_t>(90 + 5 * (i % 7));
+        p[1] = static_cast<std::uint8_t>(90 + 5 * (i % 64 / 8));
         p[2] = 40;
         p[3] = 255;
       }

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// learntrial FILM CACHE [STRIPS.png [count [w1 [cap]]]] - what a film teaches: labels, classifier,
-// transitions, tables and how they steer, printed; film strips of random jumps (i-1, i | j, j+1) to
-// look at. CACHE keeps the keyed samples between runs.
+// learntrial WORK [STRIPS.png [count [w1 [cap]]]] - what a film teaches: labels, classifier,
+// transitions, tables and how they steer, printed; film strips of jumps and of a turn to look at.
+// WORK: a work folder whose stage `segment` has run. `-` for no strips.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,14 +13,12 @@
 
 #include "control/response.h"
 #include "control/solve.h"
-#include "film/extract.h"
-#include "film/matte.h"
-#include "film/plate.h"
-#include "film/video.h"
 #include "similarity/features.h"
 #include "similarity/label.h"
 #include "similarity/random.h"
 #include "similarity/transitions.h"
+#include "tool/pictures.h"
+#include "tool/project.h"
 #include "vsprite/actor.h"
 
 using namespace vsprite;
@@ -42,110 +40,21 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Result<std::vector<Frame>> spread_frames(const std::string& path, int count) {
-  auto film = FilmReader::open(path);
-  if (!film) return film.error();
-  const int step = std::max(film->info().claimed_frames / count, 1);
-  std::vector<Frame> frames;
-  Frame frame;
-  for (;;) {
-    auto more = film->read(frame);
-    if (!more) return more.error();
-    if (!*more) return frames;
-    if (frame.index % step == 0) frames.push_back(frame);
+Result<Film> load_film(const std::string& folder) {
+  const auto project = Project::look(folder);
+  if (!project) return project.error();
+  const auto facts = project->film();
+  if (!facts) return facts.error();
+  auto rows = project->samples();
+  if (!rows) return rows.error();
+  Film film{facts->fps(), std::move(*rows), {}};
+  PictureReader reader(*project, film.rows);
+  for (int i = 0; i < static_cast<int>(film.rows.size()); ++i) {
+    auto picture = reader.picture(i);
+    if (!picture) return picture.error();
+    film.pictures.push_back(std::move(*picture));
   }
-}
-
-// Keys the whole film; `look` sees every keyed frame.
-Result<void> key_film(const std::string& path, const ScreenModel& screen,
-                      const std::function<void(const KeyedFrame&)>& look) {
-  auto film = FilmReader::open(path);
-  if (!film) return film.error();
-  Keyer keyer(screen, {});
-  Frame frame, before;
-  for (;;) {
-    auto more = film->read(frame);
-    if (!more) return more.error();
-    if (!*more) return {};
-    look(keyer.key(frame, frame.index > 0 ? &before : nullptr));
-    std::swap(frame, before);
-  }
-}
-
-Result<Film> segment_film(const std::string& path) {
-  auto frames = spread_frames(path, 50);
-  if (!frames) return frames.error();
-  auto screen = measure_screen(*frames, {});
-  if (!screen) return screen.error();
-  std::printf("%s\n", screen->reason.c_str());
-  std::vector<FrameSummary> summaries;
-  auto ok = key_film(path, *screen, [&](const KeyedFrame& keyed) {
-    summaries.push_back({keyed.index, keyed.blobs, keyed.difference});
-  });
-  if (!ok) return ok.error();
-  auto info = FilmReader::open(path)->info();
-  Film film;
-  film.fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
-  auto extraction = extract(summaries, film.fps, path, {});
-  if (!extraction) return extraction.error();
-  std::map<int, std::size_t> row_of;
-  for (std::size_t i = 0; i < extraction->rows.size(); ++i) row_of[extraction->rows[i].frame] = i;
-  film.rows = extraction->rows;
-  film.pictures.resize(film.rows.size());
-  ok = key_film(path, *screen, [&](const KeyedFrame& keyed) {
-    const auto it = row_of.find(keyed.index);
-    if (it == row_of.end()) return;
-    film.pictures[it->second] =
-        cut_sample(keyed, extraction->labels[it->second], film.rows[it->second]);
-  });
-  if (!ok) return ok.error();
   return film;
-}
-
-void save(const std::string& path, const Film& film) {
-  std::ofstream out(path, std::ios::binary);
-  const auto put = [&](auto v) { out.write(reinterpret_cast<const char*>(&v), sizeof v); };
-  put(film.fps);
-  put(film.rows.size());
-  for (std::size_t i = 0; i < film.rows.size(); ++i) {
-    const SampleRow& r = film.rows[i];
-    for (int v : {r.sample, r.clip, r.frame, r.duration}) put(v);
-    for (double v : {r.left, r.top, r.width, r.height, r.anchor_x, r.anchor_y, r.velocity_x,
-                     r.velocity_y, r.area, r.scale}) {
-      put(v);
-    }
-    put(film.pictures[i].width);
-    put(film.pictures[i].height);
-    out.write(reinterpret_cast<const char*>(film.pictures[i].rgba.data()),
-              static_cast<std::streamsize>(film.pictures[i].rgba.size()));
-  }
-}
-
-bool load(const std::string& path, Film& film) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) return false;
-  const auto get = [&](auto& v) { in.read(reinterpret_cast<char*>(&v), sizeof v); };
-  std::size_t n = 0;
-  get(film.fps);
-  get(n);
-  film.rows.resize(n);
-  film.pictures.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    SampleRow& r = film.rows[i];
-    for (int* v : {&r.sample, &r.clip, &r.frame, &r.duration}) get(*v);
-    for (double* v : {&r.left, &r.top, &r.width, &r.height, &r.anchor_x, &r.anchor_y, &r.velocity_x,
-                      &r.velocity_y, &r.area, &r.scale}) {
-      get(*v);
-    }
-    Image& image = film.pictures[i];
-    get(image.width);
-    get(image.height);
-    image.rgba.resize(4u * static_cast<std::size_t>(image.width) *
-                      static_cast<std::size_t>(image.height));
-    in.read(reinterpret_cast<char*>(image.rgba.data()),
-            static_cast<std::streamsize>(image.rgba.size()));
-  }
-  return in.good();
 }
 
 // The picture of a sample, aligned at its anchor in a square of `side`, over a mid grey.
@@ -163,46 +72,6 @@ void paint(const Film& film, std::size_t i, int side, Image& sheet, int left, in
       for (int k = 0; k < 3; ++k)
         q[k] = static_cast<std::uint8_t>((p[k] * p[3] + 150 * (255 - p[3])) / 255);
     }
-  }
-}
-
-// Random jumps, cheapest first: i-1, i | j, j+1 as shown, then i+1 as filmed.
-void write_strips(const Film& film, const FeatureSet& set, const CostTable& costs, const char* path,
-                  int count) {
-  struct Jump {
-    float cost;
-    std::size_t i, j;
-  };
-  std::vector<Jump> all, jumps;
-  for (std::size_t i = 0; i + 1 < costs.row_start.size(); ++i) {
-    for (std::uint32_t e = costs.row_start[i]; e < costs.row_start[i + 1]; ++e) {
-      const Transition& t = costs.transitions[e];
-      if (t.cost > 0) all.push_back({t.cost, i, t.to});
-    }
-  }
-  Random random{7};
-  for (int k = 0; k < count && !all.empty(); ++k) jumps.push_back(all[random.below(all.size())]);
-  std::sort(jumps.begin(), jumps.end(),
-            [](const Jump& a, const Jump& b) { return a.cost < b.cost; });
-  const int side = std::min(200, static_cast<int>(set.cell * set.grid * film.rows[0].scale) + 2);
-  const int columns = 2, per = 5, rows = (count + columns - 1) / columns;
-  Image sheet{columns * (per * side + 12), rows * (side + 4), {}};
-  sheet.rgba.assign(4u * static_cast<std::size_t>(sheet.width * sheet.height), 150);
-  for (std::size_t p = 3; p < sheet.rgba.size(); p += 4) sheet.rgba[p] = 255;
-  for (int k = 0; k < static_cast<int>(jumps.size()); ++k) {
-    const Jump& jump = jumps[static_cast<std::size_t>(k)];
-    const int left = k / rows * (per * side + 12), top = k % rows * (side + 4);
-    const std::size_t shown[per] = {jump.i > 0 ? jump.i - 1 : 0, jump.i, jump.j,
-                                    std::min(jump.j + 1, film.rows.size() - 1), jump.i + 1};
-    for (int c = 0; c < per; ++c) paint(film, shown[c], side, sheet, left + c * side, top);
-    std::printf("  strip %2d: %5zu -> %5zu T %.2f\n", k, jump.i, jump.j,
-                static_cast<double>(jump.cost));
-  }
-  auto png = encode_png(sheet);
-  if (png) {
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(png->data()),
-               static_cast<std::streamsize>(png->size()));
   }
 }
 
@@ -243,6 +112,53 @@ SpriteData sprite_data(const Film& film, const CostTable& costs, const Solution&
   return data;
 }
 
+// What a player sees: jumps of an hour of random steering out of moving samples, cheapest first
+// (i-1, i | j, j+1, then i+1 as filmed), then a turn from right to left, every second tick.
+void write_strips(const Film& film, const FeatureSet& set, const Sprite& sprite, const char* path,
+                  int count) {
+  struct Jump {
+    double cost;
+    std::size_t i, j;
+  };
+  std::vector<TraceRow> trace;
+  measure_steering(sprite, 0, random_script(3600, 1.5, 4, film.fps, 1), 100000, 1, &trace);
+  std::vector<Jump> all, jumps;
+  for (std::size_t t = 1; t < trace.size(); ++t) {
+    const std::size_t i = trace[t - 1].sample;
+    const bool moves = static_cast<double>(set.samples[i].speed) > set.moving_speed;
+    if (trace[t].cost > 0 && moves) all.push_back({trace[t].cost, i, trace[t].sample});
+  }
+  Random random{7};
+  for (int k = 0; k < count && !all.empty(); ++k) jumps.push_back(all[random.below(all.size())]);
+  std::sort(jumps.begin(), jumps.end(),
+            [](const Jump& a, const Jump& b) { return a.cost < b.cost; });
+  constexpr int kPer = 5, kColumns = 2, kTurnRows = 3;
+  const int side = std::min(200, static_cast<int>(set.cell * set.grid * film.rows[0].scale) + 2);
+  const int rows = (count + kColumns - 1) / kColumns, wide = kPer * side + 12;
+  Image sheet{kColumns * wide, (rows + kTurnRows) * (side + 4), {}};
+  sheet.rgba.assign(4u * static_cast<std::size_t>(sheet.width * sheet.height), 150);
+  for (std::size_t p = 3; p < sheet.rgba.size(); p += 4) sheet.rgba[p] = 255;
+  for (int k = 0; k < static_cast<int>(jumps.size()); ++k) {
+    const Jump& jump = jumps[static_cast<std::size_t>(k)];
+    const int left = k / rows * wide, top = k % rows * (side + 4);
+    const std::size_t shown[kPer] = {jump.i > 0 ? jump.i - 1 : 0, jump.i, jump.j,
+                                     std::min(jump.j + 1, film.rows.size() - 1), jump.i + 1};
+    for (int c = 0; c < kPer; ++c) paint(film, shown[c], side, sheet, left + c * side, top);
+    std::printf("  strip %2d: %5zu -> %5zu T %.2f\n", k, jump.i, jump.j, jump.cost);
+  }
+  measure_steering(sprite, 0, *parse_key_script("0 right; 4 left", film.fps), 300, 1, &trace);
+  const auto key = trace.size() - 300 + static_cast<std::size_t>(4 * film.fps);
+  for (int k = 0; k < kTurnRows * kColumns * kPer; ++k) {
+    const TraceRow& row = trace[std::min(key + 2 * static_cast<std::size_t>(k), trace.size() - 1)];
+    const int per_row = kColumns * kPer;
+    paint(film, row.sample, side, sheet, k % per_row * side, (rows + k / per_row) * (side + 4));
+  }
+  const auto png = encode_png(sheet);
+  if (!png) return;
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(png->data()), static_cast<std::streamsize>(png->size()));
+}
+
 void print_sprite(const Sprite& sprite) {
   for (const DirectionReport& d : measure_directions(sprite, 0, 1)) {
     std::printf("  %-10s %s error %5.1f deg speed %6.1f px/s\n",
@@ -278,14 +194,10 @@ void print_sprite(const Sprite& sprite) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 3) return 2;
-  Film film;
-  if (!load(argv[2], film)) {
-    auto segmented = segment_film(argv[1]);
-    if (!segmented) return fail(segmented.error());
-    film = std::move(*segmented);
-    save(argv[2], film);
-  }
+  if (argc < 2) return 2;
+  auto loaded = load_film(argv[1]);
+  if (!loaded) return fail(loaded.error());
+  const Film film = std::move(*loaded);
   double start = seconds();
   const FeatureSet set = make_feature_set(film.rows, film.fps, kDefaultGrid, [&](int i) {
     return film.pictures[static_cast<std::size_t>(i)];
@@ -324,11 +236,9 @@ int main(int argc, char** argv) {
               static_cast<std::size_t>(stats.transitions), stats.kept, stats.lost_clip_end,
               stats.lost_dead_end, stats.lost_unreachable, seconds() - start);
   for (const std::string& reason : stats.reasons) std::printf("  %s\n", reason.c_str());
-  if (argc > 3 && argv[3][0] != '-')
-    write_strips(film, set, *costs, argv[3], argc > 4 ? std::atoi(argv[4]) : 20);
   SolveConfig config;
-  if (argc > 5) config.w1 = std::atof(argv[5]);
-  if (argc > 6) config.cap = std::atof(argv[6]);
+  if (argc > 4) config.w1 = std::atof(argv[4]);
+  if (argc > 5) config.cap = std::atof(argv[5]);
   std::vector<Vec2> velocities;
   for (const FeatureSample& s : set.samples) velocities.push_back({s.velocity_x, s.velocity_y});
   start = seconds();
@@ -339,5 +249,7 @@ int main(int argc, char** argv) {
   auto sprite = make_sprite(sprite_data(film, *costs, *solution));
   if (!sprite) return fail(sprite.error());
   print_sprite(*sprite);
+  if (argc > 2 && argv[2][0] != '-')
+    write_strips(film, set, *sprite, argv[2], argc > 3 ? std::atoi(argv[3]) : 20);
   return 0;
 }
