@@ -70,6 +70,58 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
+std::string_view text_of(std::span<const std::uint8_t> bytes) noexcept {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// A file that is written beside its name and takes the name when it is complete. Gone if it never
+/// was.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::string path)
+      : path_(std::move(path)),
+        temporary_(path_ + std::string(kTemporaryMark) +
+                   std::to_string(static_cast<long>(::getpid()))) {}
+  TemporaryFile(TemporaryFile&& other) noexcept
+      : path_(std::move(other.path_)),
+        temporary_(std::exchange(other.temporary_, {})),
+        descriptor_(std::exchange(other.descriptor_, -1)) {}
+  TemporaryFile& operator=(TemporaryFile&&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  }
+
+  Result<void> write(std::string_view bytes) {
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) {
+      temporary_.clear();
+      return Error{ErrorCode::CannotCreate, path_ + ": cannot be created: " + reason()};
+    }
+    if (!write_all(descriptor_, bytes)) return failed("written");
+    return {};
+  }
+  /// Waits until the disk has it.
+  Result<void> sync() {
+    if (::fsync(descriptor_) != 0) return failed("synced");
+    if (::close(std::exchange(descriptor_, -1)) != 0) return failed("closed");
+    return {};
+  }
+  Result<void> rename_into_place() {
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) return failed("renamed into place");
+    temporary_.clear();
+    return {};
+  }
+
+ private:
+  Error failed(const char* what) const {
+    return {ErrorCode::CannotWrite, path_ + ": cannot be " + what + ": " + reason()};
+  }
+
+  std::string path_, temporary_;
+  int descriptor_ = -1;
+};
+
 }  // namespace
 
 Result<std::string> read_file(const std::string& path) {
@@ -92,22 +144,26 @@ Result<std::string> read_file(const std::string& path) {
   }
 }
 
-Result<void> write_file(const std::string& path, std::string_view bytes, bool sync_names) {
-  const std::string temporary =
-      path + std::string(kTemporaryMark) + std::to_string(static_cast<long>(::getpid()));
-  Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0)
-    return Error{ErrorCode::CannotCreate, path + ": cannot be created: " + reason()};
-  const auto failed = [&](const char* what) {
-    Error error{ErrorCode::CannotWrite, path + ": cannot be " + what + ": " + reason()};
-    ::unlink(temporary.c_str());
-    return error;
-  };
-  if (!write_all(file.get(), bytes)) return failed("written");
-  if (::fsync(file.get()) != 0) return failed("synced");
-  if (::close(file.release()) != 0) return failed("closed");
-  if (::rename(temporary.c_str(), path.c_str()) != 0) return failed("renamed into place");
-  if (sync_names) return sync_folder(parent_of(path));
+Result<void> write_file(const std::string& path, std::string_view bytes) {
+  TemporaryFile file(path);
+  if (auto written = file.write(bytes); !written) return written.error();
+  if (auto synced = file.sync(); !synced) return synced.error();
+  if (auto placed = file.rename_into_place(); !placed) return placed.error();
+  return sync_folder(parent_of(path));
+}
+
+Result<void> write_files(const std::vector<NamedBytes>& files) {
+  std::vector<TemporaryFile> open;
+  open.reserve(files.size());
+  for (const NamedBytes& file : files) {
+    open.emplace_back(file.path);
+    if (auto written = open.back().write(text_of(file.bytes)); !written) return written.error();
+  }
+  // All are on their way to the disk before the first one is waited for.
+  for (TemporaryFile& file : open)
+    if (auto synced = file.sync(); !synced) return synced.error();
+  for (TemporaryFile& file : open)
+    if (auto placed = file.rename_into_place(); !placed) return placed.error();
   return {};
 }
 

@@ -23,9 +23,19 @@ namespace vsprite {
 Result<std::string> read_file(const std::string& path);
 
 /// `path` holds `bytes` afterwards, complete and synced, or what it held before.
-/// `sync_folder` false leaves the folder to one later sync_folder() call.
 /// Errors: CannotCreate, CannotWrite (also a full disk), naming the path.
-Result<void> write_file(const std::string& path, std::string_view bytes, bool sync_folder = true);
+Result<void> write_file(const std::string& path, std::string_view bytes);
+
+struct NamedBytes {
+  std::string path;
+  std::span<const std::uint8_t> bytes;
+};
+
+/// The same for many small files: all are written before the first one is waited for, which takes a
+/// tenth of the time. Each is complete where it stands; one later sync_folder() makes their names
+/// durable. Keeps a descriptor open for each: some hundred at most.
+/// Errors: those of write_file.
+Result<void> write_files(const std::vector<NamedBytes>& files);
 
 /// Makes the names in `folder` durable. Errors: CannotWrite.
 Result<void> sync_folder(const std::string& folder);

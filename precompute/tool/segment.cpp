@@ -242,12 +242,22 @@ Result<void> clear_sprites(const Project& project) {
   return make_folder(folder);
 }
 
-Result<void> cut_and_write(const Project& project, const KeyedFrame& frame, int label,
-                           const SampleRow& row) {
-  const auto png = encode_png(cut_sample(frame, label, row));
-  if (!png) return png.error();
-  return write_file(project.sprite_path(row.sample),
-                    {reinterpret_cast<const char*>(png->data()), png->size()}, false);
+/// Cuts the rows with the numbers `due`, all of one chunk, in parallel; writes them together.
+Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& frames,
+                       const Extraction& extraction, const std::vector<std::size_t>& due) {
+  using Png = Result<std::vector<std::uint8_t>>;
+  std::vector<Png> pictures(due.size(), Png(std::vector<std::uint8_t>{}));
+  tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t k) {
+    const SampleRow& row = extraction.rows[due[k]];
+    const auto& frame = frames[static_cast<std::size_t>(row.frame % kChunkFrames)];
+    pictures[k] = encode_png(cut_sample(frame, extraction.labels[due[k]], row));
+  });
+  std::vector<NamedBytes> files;
+  for (std::size_t k = 0; k < due.size(); ++k) {
+    if (!pictures[k]) return pictures[k].error();
+    files.push_back({project.sprite_path(extraction.rows[due[k]].sample), *pictures[k]});
+  }
+  return write_files(files);
 }
 
 /// Step 3: rows are in film order, so that every chunk is read once.
@@ -257,26 +267,20 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
   for (std::size_t begin = 0; begin < rows.size();) {
     const int chunk = rows[begin].frame / kChunkFrames;
     std::size_t end = begin;
-    while (end < rows.size() && rows[end].frame / kChunkFrames == chunk) ++end;
     std::vector<std::size_t> due;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (; end < rows.size() && rows[end].frame / kChunkFrames == chunk; ++end) {
       std::error_code error;
-      if (!resumed || !fs::exists(run.project.sprite_path(rows[i].sample), error)) due.push_back(i);
+      if (!resumed || !fs::exists(run.project.sprite_path(rows[end].sample), error))
+        due.push_back(end);
     }
-    const auto frames = due.empty() ? std::vector<KeyedFrame>{} : store.read(chunk);
-    if (!frames)
-      return Error{ErrorCode::CorruptData, run.project.path("keyed") + ": chunk " +
-                                               std::to_string(chunk) +
-                                               " was damaged meanwhile: run it again"};
-    std::vector<std::optional<Error>> faults(due.size());
-    tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t k) {
-      const std::size_t i = due[k];
-      const auto& frame = (*frames)[static_cast<std::size_t>(rows[i].frame % kChunkFrames)];
-      if (auto cut = cut_and_write(run.project, frame, extraction.labels[i], rows[i]); !cut)
-        faults[k] = cut.error();
-    });
-    for (const auto& fault : faults)
-      if (fault) return *fault;
+    if (!due.empty()) {
+      const auto frames = store.read(chunk);
+      if (!frames)
+        return Error{ErrorCode::CorruptData, run.project.path("keyed") + ": chunk " +
+                                                 std::to_string(chunk) +
+                                                 " was damaged meanwhile: run it again"};
+      if (auto cut = cut_chunk(run.project, *frames, extraction, due); !cut) return cut.error();
+    }
     begin = end;
     report(run,
            kKeyed + (1 - kKeyed) * static_cast<double>(end) / static_cast<double>(rows.size()));
