@@ -16,9 +16,9 @@ namespace {
 
 constexpr int kMargin = 4;              // cells around the silhouette
 constexpr float kSpill = 0.05f;         // share of the plate in a foreground near it, and at the
-constexpr float kRimSpill = 0.1f;       // rim, where screen light falls from behind
+constexpr float kRimSpill = 0.07f;      // rim, where screen light falls from behind
 constexpr float kShading = 0.1f;        // relative sigma of the foreground's brightness
-constexpr float kHue = 0.05f;           // sigma of its colour, relative to its luma
+constexpr float kHue = 0.04f;           // sigma of its colour, relative to its luma
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one
 constexpr float kGlobalWeight = 1e-4f;  // of the whole patch
 
@@ -351,6 +351,24 @@ bool add_unexplained(const std::vector<float>& residual, Mask& seeds) {
   return added;
 }
 
+// Where the first alpha says nearly opaque, next to the seeds, it is the subject getting paler: the
+// seeds grow over it, at most `kGrowth` cells, and the rim is then held against the paler colour.
+void grow_seeds(Patch& patch) {
+  constexpr int kGrowth = 8;
+  constexpr float kNearlyOpaque = 0.88f;
+  for (int step = 0; step < kGrowth; ++step) {
+    const Mask near = dilate(patch.seeds, 1);
+    bool grown = false;
+    for (std::size_t i = 0; i < near.in.size(); ++i) {
+      if (!near.in[i] || patch.seeds.in[i] || patch.alpha[i] <= kNearlyOpaque) continue;
+      patch.seeds.in[i] = 1;
+      patch.alpha[i] = 1;
+      grown = true;
+    }
+    if (!grown) return;
+  }
+}
+
 // The rim's own colours, unmixed with the first alpha, join the seeds' by how opaque they are.
 void weigh_rim(const Patch& patch, std::vector<float>& weight, std::vector<float> (&color)[3]) {
   const std::size_t n = patch.cells();
@@ -439,6 +457,7 @@ void unmix(const ScreenModel& screen, Patch& patch) {
     solve_alpha(patch, moments, evidence, kSpill, &residual);
     if (round > 0 || !add_unexplained(residual, patch.seeds)) break;
   }
+  if (screen.key >= 0) grow_seeds(patch);
   weigh_rim(patch, weight, color);
   gather_moments(patch, weight, color, moments);
   solve_alpha(patch, moments, evidence, kRimSpill, nullptr);

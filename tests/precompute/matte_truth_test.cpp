@@ -93,6 +93,7 @@ double projected(const capture::TruthFrame& t, const Frame& frame, std::size_t i
   return bottom > 1e-9 ? std::clamp(top / bottom, 0.0, 1.0) : 0.0;
 }
 
+// Position: the centroid of the whole keyed matte against that of the whole true alpha.
 struct Sums {
   double keyed = 0, plain = 0, rest = 0;
   double band_pixels = 0, rest_pixels = 0;
