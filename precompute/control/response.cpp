@@ -8,7 +8,6 @@
 #include <cmath>
 #include <deque>
 
-#include "similarity/features.h"
 #include "similarity/random.h"
 #include "vsprite/actor.h"
 
@@ -36,15 +35,7 @@ double length_px(Position from, Position to) {
   return std::sqrt(x * x + y * y) / static_cast<double>(kFixedOne);
 }
 
-double usual_speed(const Sprite& sprite) {
-  std::vector<double> speeds, areas;
-  for (const Sample& s : sprite.samples()) {
-    const double x = static_cast<double>(s.velocity.x), y = static_cast<double>(s.velocity.y);
-    speeds.push_back(std::sqrt(x * x + y * y));
-    areas.push_back(static_cast<double>(s.area));
-  }
-  return measure_speeds(std::move(speeds), std::move(areas)).usual;
-}
+double usual_speed(const Sprite& sprite) { return measure_speeds(sprite.samples()).usual; }
 
 std::uint64_t ticks(double seconds, double fps) {
   return static_cast<std::uint64_t>(std::ceil(seconds * fps));
@@ -121,6 +112,16 @@ void sum_up(std::vector<double>& costs, TurnMeter& meter, std::uint64_t jumps, d
 }
 
 }  // namespace
+
+SpeedScale measure_speeds(std::span<const Sample> samples) {
+  std::vector<double> speeds, areas;
+  for (const Sample& s : samples) {
+    const double x = static_cast<double>(s.velocity.x), y = static_cast<double>(s.velocity.y);
+    speeds.push_back(std::sqrt(x * x + y * y));
+    areas.push_back(static_cast<double>(s.area));
+  }
+  return measure_speeds(std::move(speeds), std::move(areas));
+}
 
 std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode,
                                                               std::uint64_t seed) {
