@@ -132,7 +132,8 @@ std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& spri
   Random random{seed};
   std::array<std::uint32_t, kStarts> starts{};
   for (std::uint32_t& start : starts) start = kept[random.below(kept.size())];
-  const double usual = usual_speed(sprite);
+  const SpeedScale speeds = measure_speeds(sprite.samples());
+  const double least = std::max(speeds.moving, kLeastShare * speeds.usual);
 
   std::array<DirectionReport, kCompassCount> reports{};
   for (int d = 0; d < kCompassCount; ++d) {
@@ -149,7 +150,7 @@ std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& spri
       error += error_deg(from, actor.position, report.direction) / kStarts;
       report.speed += length_px(from, actor.position) / (kTravel * kStarts);
     }
-    report.reachable = usual > 0 && report.speed >= kLeastShare * usual && error <= kReachable;
+    report.reachable = speeds.usual > 0 && report.speed >= least && error <= kReachable;
     if (report.reachable) report.tracking_error_deg = error;
   }
   return reports;

@@ -28,8 +28,8 @@ SpeedScale measure_speeds(std::span<const Sample> samples);
 /// position(12 s) - position(2 s), mean of five seeded starts.
 struct DirectionReport {
   Direction direction = Direction::Right;
-  bool reachable = false;  ///< at a quarter of the usual speed or more, within 60 degrees; never
-                           ///< where nothing moves: a subject that only sways plays by itself
+  bool reachable = false;  ///< within 60 degrees, at a quarter of the usual speed or more, and at a
+                           ///< speed that counts as moving: one that only sways plays by itself
   std::optional<double> tracking_error_deg;  ///< empty where unreachable
   double speed = 0;                          ///< px/s of that displacement, mean
 };
