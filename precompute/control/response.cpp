@@ -8,7 +8,6 @@
 #include <cmath>
 #include <deque>
 
-#include "similarity/features.h"
 #include "similarity/random.h"
 #include "vsprite/actor.h"
 
@@ -36,15 +35,7 @@ double length_px(Position from, Position to) {
   return std::sqrt(x * x + y * y) / static_cast<double>(kFixedOne);
 }
 
-double usual_speed(const Sprite& sprite) {
-  std::vector<double> speeds, areas;
-  for (const Sample& s : sprite.samples()) {
-    const double x = static_cast<double>(s.velocity.x), y = static_cast<double>(s.velocity.y);
-    speeds.push_back(std::sqrt(x * x + y * y));
-    areas.push_back(static_cast<double>(s.area));
-  }
-  return measure_speeds(std::move(speeds), std::move(areas)).usual;
-}
+double usual_speed(const Sprite& sprite) { return measure_speeds(sprite.samples()).usual; }
 
 std::uint64_t ticks(double seconds, double fps) {
   return static_cast<std::uint64_t>(std::ceil(seconds * fps));
@@ -122,6 +113,16 @@ void sum_up(std::vector<double>& costs, TurnMeter& meter, std::uint64_t jumps, d
 
 }  // namespace
 
+SpeedScale measure_speeds(std::span<const Sample> samples) {
+  std::vector<double> speeds, areas;
+  for (const Sample& s : samples) {
+    const double x = static_cast<double>(s.velocity.x), y = static_cast<double>(s.velocity.y);
+    speeds.push_back(std::sqrt(x * x + y * y));
+    areas.push_back(static_cast<double>(s.area));
+  }
+  return measure_speeds(std::move(speeds), std::move(areas));
+}
+
 std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode,
                                                               std::uint64_t seed) {
   std::vector<std::uint32_t> kept;
@@ -131,7 +132,8 @@ std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& spri
   Random random{seed};
   std::array<std::uint32_t, kStarts> starts{};
   for (std::uint32_t& start : starts) start = kept[random.below(kept.size())];
-  const double usual = usual_speed(sprite);
+  const SpeedScale speeds = measure_speeds(sprite.samples());
+  const double least = std::max(speeds.moving, kLeastShare * speeds.usual);
 
   std::array<DirectionReport, kCompassCount> reports{};
   for (int d = 0; d < kCompassCount; ++d) {
@@ -148,7 +150,7 @@ std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& spri
       error += error_deg(from, actor.position, report.direction) / kStarts;
       report.speed += length_px(from, actor.position) / (kTravel * kStarts);
     }
-    report.reachable = usual > 0 && report.speed >= kLeastShare * usual && error <= kReachable;
+    report.reachable = speeds.usual > 0 && report.speed >= least && error <= kReachable;
     if (report.reachable) report.tracking_error_deg = error;
   }
   return reports;

@@ -11,19 +11,25 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "similarity/features.h"
 #include "vsprite/geometry.h"
 #include "vsprite/input.h"
 #include "vsprite/sprite.h"
 
 namespace vsprite {
 
+/// What counts as moving in a sprite, and how fast it usually moves; sprite px/s.
+SpeedScale measure_speeds(std::span<const Sample> samples);
+
 /// Tracking of one compass direction (DESIGN section 4): angle between the command and
 /// position(12 s) - position(2 s), mean of five seeded starts.
 struct DirectionReport {
   Direction direction = Direction::Right;
-  bool reachable = false;  ///< at a quarter of the usual speed or more, within 60 degrees
+  bool reachable = false;  ///< within 60 degrees, at a quarter of the usual speed or more, and at a
+                           ///< speed that counts as moving: one that only sways plays by itself
   std::optional<double> tracking_error_deg;  ///< empty where unreachable
   double speed = 0;                          ///< px/s of that displacement, mean
 };

@@ -7,7 +7,7 @@
 //     a_j(l) = f |angle(v_j, l)| + (1 - f) pi,  f = min(1, |v_j| / v0)
 //     V^k_i = min_j [T_ij + alpha V^(k-1)_j],  k = 1..K                        [NIPS section 4.1]
 //
-// none: w1 = 0. rest: a_j = pi f (prefers low speed). A deterministic problem, so a policy is a
+// none: w1 = 0. rest: a_j = pi f^2 (a slow drift is worth no jump). A deterministic problem, so a policy is a
 // functional graph: every sample runs into one cycle, on which V is a geometric sum. Evaluation is
 // exact in O(N), whatever alpha; a few Gauss-Seidel sweeps improve the policy (Howard).
 #pragma once

@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <mutex>
 
@@ -18,20 +19,42 @@ constexpr int kTileRows = 32;  // samples i of a tile
 constexpr int kTileColumns =
     256;  // samples j looked at together, so that their blocks stay in cache
 
-std::uint32_t block_difference(const std::vector<std::uint16_t>& a,
-                               const std::vector<std::uint16_t>& b) noexcept {
+constexpr int kMaxBands = 64 / kBlock;
+
+// Lower bounds of the difference in coverage, one for each band (a row of blocks), and which bands
+// show anything at all.
+struct Bands {
+  std::array<std::uint32_t, kMaxBands> bound{};
+  std::array<bool, kMaxBands> empty{};
   std::uint32_t sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    sum += static_cast<std::uint32_t>(std::abs(a[k] - b[k]));
+};
+
+Bands bound_bands(const FeatureSample& a, const FeatureSample& b, std::size_t bands) noexcept {
+  Bands result;
+  for (std::size_t band = 0; band < bands; ++band) {
+    std::uint32_t bound = 0, seen = 0;
+    for (std::size_t k = band * bands; k < (band + 1) * bands; ++k) {
+      bound += static_cast<std::uint32_t>(std::abs(a.block_alpha[k] - b.block_alpha[k]));
+      seen |= static_cast<std::uint32_t>(a.block_alpha[k]) | b.block_alpha[k];
+    }
+    result.bound[band] = bound;
+    result.empty[band] = seen == 0;
+    result.sum += bound;
   }
-  return sum;
+  return result;
 }
 
 // One pair, the cheapest bound first. `f` holds lower bounds that are replaced by the features.
 class PairTest {
  public:
   PairTest(const FeatureSet& set, const Classifier& classifier)
-      : set_(set), classifier_(classifier), plane_(set.grid * set.grid) {}
+      : set_(set), classifier_(classifier), plane_(set.grid * set.grid) {
+    // From the middle outward: that is where the subject is, and so where it differs.
+    const int bands = set.grid / kBlock;
+    for (int k = 0; k < bands; ++k) {
+      order_.push_back(bands / 2 + (k % 2 == 0 ? k / 2 : -(k + 1) / 2));
+    }
+  }
 
   // True if accepted, with its distance; `compared` counts pairs whose cells were looked at.
   bool accept(int i, int j, float& distance, std::uint64_t& compared) const noexcept {
@@ -39,16 +62,22 @@ class PairTest {
     if (refused(f)) return false;
     const FeatureSample& a = set_.samples[static_cast<std::size_t>(i)];
     const FeatureSample& b = set_.samples[static_cast<std::size_t>(j)];
-    f[kAlpha] = detail::alpha_feature(block_difference(a.block_alpha, b.block_alpha));
+    const Bands bands = bound_bands(a, b, order_.size());
+    f[kAlpha] = detail::alpha_feature(bands.sum);
     if (refused(f)) return false;
     ++compared;
-    const std::uint32_t alpha = detail::alpha_difference(a.planes.data(), b.planes.data(), plane_);
-    f[kAlpha] = detail::alpha_feature(alpha);
-    if (refused(f)) return false;
+    std::uint32_t alpha = bands.sum;
     std::uint64_t color = 0;
-    for (int y = 0; y < set_.grid; y += kBlock) {
-      color += detail::color_difference(a.planes.data(), b.planes.data(), plane_, y * set_.grid,
-                                        set_.grid, kBlock);
+    for (const int band : order_) {
+      const auto k = static_cast<std::size_t>(band);
+      if (bands.empty[k]) continue;
+      const int first = band * kBlock * set_.grid;
+      alpha += detail::alpha_difference(a.planes.data() + first, b.planes.data() + first,
+                                        kBlock * set_.grid) -
+               bands.bound[k];
+      color += detail::color_difference(a.planes.data(), b.planes.data(), plane_, first, set_.grid,
+                                        kBlock);
+      f[kAlpha] = detail::alpha_feature(alpha);
       f[kColor] = detail::color_feature(color);
       if (refused(f)) return false;
     }
@@ -64,6 +93,7 @@ class PairTest {
   const FeatureSet& set_;
   const Classifier& classifier_;
   int plane_;
+  std::vector<int> order_;  // of the bands
 };
 
 struct Tile {

@@ -70,11 +70,6 @@ float median_side(const std::vector<Sample>& samples, std::span<const int> body_
   return static_cast<float>(sum) / 2;
 }
 
-int turns_between(int a, int b) {
-  const int around = std::abs(a - b);
-  return std::min(around, kCompassCount - around);
-}
-
 std::vector<int> measure_bodies(PictureReader& reader, std::size_t count, Result<void>& state) {
   std::vector<int> sides;
   for (std::size_t i = 0; i < count && state; ++i) {
@@ -87,13 +82,13 @@ std::vector<int> measure_bodies(PictureReader& reader, std::size_t count, Result
   return sides;
 }
 
-Json direction_json(const SpriteData& data, const DirectionReport& report, double v0) {
+Json direction_json(const SpriteData& data, const DirectionReport& report) {
   Json entry = {{"name", direction_name(report.direction)},
                 {"reachable", report.reachable},
                 {"tracking_error_deg", nullptr},
                 {"speed", report.speed}};
   if (report.tracking_error_deg) entry["tracking_error_deg"] = *report.tracking_error_deg;
-  const std::string reason = unserved_reason(data, report, v0);
+  const std::string reason = unserved_reason(data, report);
   if (!reason.empty()) entry["reason"] = reason;
   return entry;
 }
@@ -123,35 +118,15 @@ Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<Sam
   return data;
 }
 
-void serve_directions(ControlMode& mode, const DirectionReports& reports) {
-  mode.served = 0;
-  for (std::size_t d = 0; d < kCompassCount; ++d)
-    if (reports[d].reachable) mode.served |= 1u << d;
-  const auto error_of = [&reports](int d) {
-    return reports[static_cast<std::size_t>(d)].tracking_error_deg.value_or(180);
-  };
-  for (int d = 0; d < kCompassCount; ++d) {
-    int best = -1;
-    for (int other = 0; other < kCompassCount; ++other) {
-      const int turns = turns_between(d, other);
-      if ((mode.served >> other & 1u) == 0 || turns > 1) continue;  // 2 x 45 degrees are over 60
-      const int best_turns = best < 0 ? kCompassCount : turns_between(d, best);
-      if (turns < best_turns || (turns == best_turns && error_of(other) < error_of(best)))
-        best = other;
-    }
-    mode.table_of[static_cast<std::size_t>(d)] =
-        best < 0 ? Direction::Rest : static_cast<Direction>(best);
-  }
-}
-
-std::string unserved_reason(const SpriteData& data, const DirectionReport& report, double v0) {
+std::string unserved_reason(const SpriteData& data, const DirectionReport& report) {
   if (report.reachable) return {};
   const Vec2 unit = unit_vector(report.direction);
+  const double least = measure_speeds(data.samples).moving;
   int moving = 0, toward = 0, kept = 0;
   for (const Sample& sample : data.samples) {
     const double speed = std::sqrt(double{sample.velocity.x} * sample.velocity.x +
                                    double{sample.velocity.y} * sample.velocity.y);
-    if (speed < v0 * double{sample.scale} || speed <= 0) continue;
+    if (speed <= least) continue;
     ++moving;
     const double along =
         (double{sample.velocity.x} * unit.x + double{sample.velocity.y} * unit.y) / speed;
@@ -194,7 +169,9 @@ Result<Json> write_pack(StageRun& run) {
   const auto trial = make_sprite(*data);
   if (!trial) return trial.error();
   const DirectionReports reports = measure_directions(*trial, 0, run.settings.seed);
-  serve_directions(data->modes.front(), reports);
+  const ServedDirections served = serve_directions(reports);
+  data->modes.front().served = served.served;
+  data->modes.front().table_of = served.table_of;
 
   PictureReader pictures(run.project, *rows);
   const double count = static_cast<double>(rows->size());
@@ -206,8 +183,7 @@ Result<Json> write_pack(StageRun& run) {
 
   std::error_code error;
   Json directions = Json::array();
-  for (const DirectionReport& report : reports)
-    directions.push_back(direction_json(*data, report, file->v0));
+  for (const DirectionReport& report : reports) directions.push_back(direction_json(*data, report));
   const double bytes = static_cast<double>(fs::file_size(run.pack, error));
   return Json{{"pack_bytes", static_cast<std::uint64_t>(bytes)},
               {"body_length", data->body_length},

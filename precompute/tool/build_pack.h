@@ -29,11 +29,7 @@ Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<Sam
 
 using DirectionReports = std::array<DirectionReport, kCompassCount>;
 
-/// Fills `served` and `table_of`: a command that cannot be travelled goes to the nearest served
-/// direction within 60 degrees (the better tracked of two), else to Rest.
-void serve_directions(ControlMode& mode, const DirectionReports& reports);
-
 /// Why a direction cannot be travelled, and what to film; empty where it can.
-std::string unserved_reason(const SpriteData& data, const DirectionReport& report, double v0);
+std::string unserved_reason(const SpriteData& data, const DirectionReport& report);
 
 }  // namespace vsprite

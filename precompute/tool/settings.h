@@ -38,7 +38,7 @@ struct Settings {
   int min_back = 15;
   double alpha = 0.97;
   double w1 = 0.6;
-  double cap = 1;
+  double cap = 0.8;
   int free_steps = 5;
 
   // Playing it.

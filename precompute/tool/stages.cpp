@@ -207,6 +207,7 @@ Result<Json> solve_tables(StageRun& run) {
   auto solution = solve(file->costs, velocities, file->v0, values.config);
   if (!solution) return solution.error();
   values.solution = std::move(*solution);
+  values.config.w1 = values.solution.w1;  // the setting 0 stands for a rule
   if (auto wrote = write_file(run.project.path("values.bin"), format_values(values)); !wrote)
     return wrote.error();
   return Json{{"alpha", values.config.alpha},

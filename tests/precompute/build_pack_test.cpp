@@ -76,43 +76,20 @@ TEST(BuildPack, NothingKeptIsRefused) {
   EXPECT_EQ(data.error().code, ErrorCode::BadContent);
 }
 
-DirectionReports only(std::initializer_list<Direction> reachable) {
-  DirectionReports reports;
-  for (int d = 0; d < kCompassCount; ++d)
-    reports[static_cast<std::size_t>(d)].direction = static_cast<Direction>(d);
-  for (const Direction d : reachable) {
-    reports[static_cast<std::size_t>(d)].reachable = true;
-    reports[static_cast<std::size_t>(d)].tracking_error_deg = 10;
-  }
-  return reports;
-}
-
-TEST(ServeDirections, ASideViewServesDiagonalsByItsTwoDirectionsAndRestsOtherwise) {
-  ControlMode mode;
-  serve_directions(mode, only({Direction::Right, Direction::Left}));
-  EXPECT_EQ(mode.served, 0b00010001u);
-  const Direction due[] = {Direction::Right, Direction::Right, Direction::Rest, Direction::Left,
-                           Direction::Left,  Direction::Left,  Direction::Rest, Direction::Right};
-  for (std::size_t d = 0; d < kCompassCount; ++d) EXPECT_EQ(mode.table_of[d], due[d]) << d;
-}
-
-TEST(ServeDirections, OfTwoNeighboursTheBetterTrackedOneServes) {
-  ControlMode mode;
-  DirectionReports reports = only({Direction::Right, Direction::Down});
-  reports[2].tracking_error_deg = 3;
-  serve_directions(mode, reports);
-  EXPECT_EQ(mode.table_of[1], Direction::Down);
-}
-
-TEST(ServeDirections, AnUnservedDirectionSaysWhy) {
-  const auto data = Tables().data();
+TEST(BuildPack, AnUnservedDirectionSaysWhy) {
+  auto data = Tables().data();
   ASSERT_TRUE(data);
-  const DirectionReports reports = only({});
-  EXPECT_NE(unserved_reason(*data, reports[2], 10).find("never moves down"), std::string::npos);
-  EXPECT_NE(unserved_reason(*data, reports[0], 10).find("3 samples move that way"),
-            std::string::npos);
-  EXPECT_NE(unserved_reason(*data, reports[0], 1000).find("nothing in the film moves"),
-            std::string::npos);
+  DirectionReport right, down;
+  down.direction = Direction::Down;
+  EXPECT_NE(unserved_reason(*data, down).find("never moves down"), std::string::npos);
+  EXPECT_NE(unserved_reason(*data, right).find("3 samples move that way"), std::string::npos);
+  for (Sample& sample : data->samples) sample.kept = 0;
+  EXPECT_NE(unserved_reason(*data, right).find("no smooth jump leads to them"), std::string::npos);
+  // 34 px/s is a sway for a subject of 400 px: a tenth of its size a second.
+  for (Sample& sample : data->samples) sample.area = 160000;
+  EXPECT_EQ(unserved_reason(*data, right), "nothing in the film moves from its place");
+  right.reachable = true;
+  EXPECT_EQ(unserved_reason(*data, right), "");
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/tiny_sprite.h"
+
 namespace vsprite {
 namespace {
 
@@ -20,6 +22,38 @@ TEST(Response, CommandsWithoutATableGoToTheBetterNeighbourOrToRest) {
   EXPECT_EQ(served.table_of[7], Direction::Right);
   EXPECT_EQ(served.table_of[4], Direction::Rest);
   EXPECT_EQ(served.table_of[8], Direction::None);
+}
+
+TEST(Response, TheTinySpriteGoesWhereItIsTold) {
+  const Sprite sprite = testing::tiny_sprite();
+  for (const DirectionReport& report : measure_directions(sprite, 0, 1)) {
+    ASSERT_TRUE(report.reachable) << direction_name(report.direction);
+    EXPECT_LT(*report.tracking_error_deg, 5) << direction_name(report.direction);
+  }
+  const SteerReport run =
+      measure_steering(sprite, 0, random_script(60, 1.5, 4, sprite.fps(), 1), 1800, 1);
+  EXPECT_EQ(run.freezes, 0u);
+  EXPECT_EQ(run.unfinished, 0);
+  EXPECT_GT(run.turns, 10);
+  EXPECT_EQ(
+      run.states_hash,
+      measure_steering(sprite, 0, random_script(60, 1.5, 4, sprite.fps(), 1), 1800, 1).states_hash);
+}
+
+TEST(Response, RestComesToRest) {
+  const Sprite sprite = testing::tiny_sprite();
+  std::vector<TraceRow> trace;
+  measure_steering(sprite, 0, *parse_key_script("0 right; 4 rest", sprite.fps()), 300, 1, &trace);
+  EXPECT_GT(trace[100].x, trace[60].x);
+  EXPECT_EQ(trace.back().x, trace[trace.size() - 60].x);
+  EXPECT_EQ(trace.back().y, trace[trace.size() - 60].y);
+}
+
+TEST(Response, WhereNothingIsReachedEveryCommandRests) {
+  const ServedDirections served = serve_directions({});
+  EXPECT_EQ(served.served, 0u);
+  for (std::size_t d = 0; d < kCompassCount; ++d)
+    EXPECT_EQ(served.table_of[d], Direction::Rest) << d;
 }
 
 TEST(Response, RandomScriptsAreReproducibleAndAlwaysChange) {

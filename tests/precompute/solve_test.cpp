@@ -79,6 +79,21 @@ TEST(Solve, AgreesWithThePapersIterationWithinTheCertifiedBound) {
   }
 }
 
+TEST(Solve, ChargesTheAngleToTheCommandAndPiForStanding) {
+  for (int d = 0; d < kCompassCount; ++d) {
+    for (int h = 0; h < kCompassCount; ++h) {
+      const Vec2 unit = unit_vector(static_cast<Direction>(h));
+      const int apart = std::min(std::abs(d - h), 8 - std::abs(d - h));
+      EXPECT_NEAR(direction_cost({50 * unit.x, 50 * unit.y}, 20, static_cast<Direction>(d)),
+                  apart * kPi / 4, 1e-6);
+    }
+    EXPECT_EQ(direction_cost({}, 20, static_cast<Direction>(d)), kPi);
+  }
+  EXPECT_EQ(direction_cost({}, 20, Direction::Rest), 0);
+  EXPECT_EQ(direction_cost({0, 90}, 20, Direction::Rest), kPi);
+  EXPECT_EQ(direction_cost({0, 90}, 20, Direction::None), 0);
+}
+
 TEST(Solve, GivesTheSameTablesAtEveryThreadCount) {
   Random random{4};
   const CostTable costs = random_costs(50, random);
