@@ -54,12 +54,12 @@ expect 3 vsprite steer binary.vsp
 expect 3 vsprite doctor binary.vsp
 
 film circle whole.mp4 100
-vsprite build whole.mp4 >build.text 2>&1 &
+"$BIN/vsprite" build whole.mp4 >build.text 2>&1 &
 victim=$!
 for _ in $(seq 200); do [ -e whole.work/keyed/origin ] && break; sleep 0.02; done
 kill -INT $victim; wait $victim
 [ $? = 130 ] || fail "an interrupted build does not exit with 130"
 grep -q "the same command goes on from there" build.text || fail "an interrupted build does not say how to go on"
 expect 0 vsprite build whole.mp4
-no_temporaries
+[ -e whole.work/keyed ] && fail "a finished build keeps what it needed to go on"
 finish
