@@ -192,7 +192,7 @@ void set_rate(double fps, FilmInfo& info) {
                               {120000, 1001}, {120, 1}, {240, 1},      {15, 1},       {10, 1},
                               {12, 1},        {20, 1}};
   if (!(fps > 0.01) || !(fps < 10'000)) return;  // the container says nothing: 30
-  double nearest = 4e-4;                         // 30 and 30000/1001 are 1e-3 apart
+  double nearest = 6e-3;  // a short last frame or a phone's clock shifts the mean by as much
   bool found = false;
   for (const Rate r : kCommon) {
     const double ratio = std::abs(fps * r.denominator / r.numerator - 1);

@@ -88,6 +88,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
 
 std::string directions_text(const Json& directions) {
   std::string out = "\n  direction    angle off   speed px/s\n";
+  bool any = false;
   for (const Json& d : directions) {
     out += "  " + padded(d.value("name", ""), 13);
     if (d.value("reachable", false)) {
@@ -98,7 +99,10 @@ std::string directions_text(const Json& directions) {
       out += "cannot be served: " +
              d.value("reason", std::string("the sprite does not travel that way")) + "\n";
     }
+    any |= d.value("reachable", false);
   }
+  if (!any)
+    out += "\n  no direction can be steered: the pack is good, and its character plays by itself\n";
   return out;
 }
 

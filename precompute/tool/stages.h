@@ -27,6 +27,7 @@ struct StageListener {
 struct StageOutcome {
   std::string name;
   double seconds = 0;
+  /// Of this process during the stage, and of the largest decoder child where one worked in it.
   double peak_rss_mb = 0;
   bool skipped = false;
   Json result = Json::object();  ///< its figures, also where it was skipped

@@ -17,6 +17,24 @@ expect 3 vsprite build text.mp4
 says "text.mp4"; one_sentence
 expect 3 vsprite doctor text.mp4
 [ -e text.vsp ] && fail "a pack was made of a text"
+expect 3 vsprite doctor text.mp4
+prints "-> vsprite build FILM"
+mkdir folder && : >empty.mp4 && : >empty.vsp
+expect 3 vsprite build folder
+says "folder: is a folder, a film is due"; one_sentence
+expect 3 vsprite build empty.vsp
+says "empty.vsp: is a pack, a film is due: \`vsprite play empty.vsp\`"; one_sentence
+expect 3 vsprite build empty.mp4
+says "empty.mp4: no film"; one_sentence
+expect 3 vsprite info text.mp4
+says "text.mp4: "; one_sentence
+expect 3 vsprite play text.mp4 --headless
+one_sentence
+expect 66 vsprite play absent.vsp
+says "absent.vsp: no such file"; one_sentence
+expect 66 vsprite validate folder
+expect 66 vsprite train folder
+says "no film has been segmented here"; one_sentence
 film blank blank.mp4 100
 expect 3 vsprite build blank.mp4
 says "blank.mp4"; one_sentence
@@ -34,4 +52,14 @@ expect 3 vsprite validate binary.vsp
 prints "INVALID: "
 expect 3 vsprite steer binary.vsp
 expect 3 vsprite doctor binary.vsp
+
+film circle whole.mp4 100
+"$BIN/vsprite" build whole.mp4 >build.text 2>&1 &
+victim=$!
+for _ in $(seq 200); do [ -e whole.work/keyed/origin ] && break; sleep 0.02; done
+kill -INT $victim; wait $victim
+[ $? = 130 ] || fail "an interrupted build does not exit with 130"
+grep -q "the same command goes on from there" build.text || fail "an interrupted build does not say how to go on"
+expect 0 vsprite build whole.mp4
+[ -e whole.work/keyed ] && fail "a finished build keeps what it needed to go on"
 finish

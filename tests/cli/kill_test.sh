@@ -5,7 +5,7 @@
 # bytes and leaves nothing behind.
 . "$(dirname "$0")/lib.sh"
 if ! command -v strace >/dev/null; then echo "SKIPPED: strace is missing"; exit 77; fi
-"$BIN/make_film" circle c.mp4 150 || fail make_film
+"$BIN/make_film" circle c.mp4 90 || fail make_film
 kills=${VSPRITE_KILLS:-20}
 RANDOM=${VSPRITE_SEED:-1}
 

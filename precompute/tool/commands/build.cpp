@@ -27,9 +27,12 @@ Result<Places> find_places(const Settings& settings, int first) {
     return Error{ErrorCode::BadSetting, needs_film
                                             ? "a film is due: `vsprite build FILM`"
                                             : "a work folder is due: FILM, PACK or --work DIR"};
-  if (needs_film && (fs::is_directory(operand, error) || fs::path(operand).extension() == ".vsp"))
+  if (needs_film && fs::is_directory(operand, error))
     return Error{ErrorCode::BadFormat,
-                 operand + ": no film: name the film that the sprite was made from"};
+                 operand + ": is a folder, a film is due: a video file such as MP4"};
+  if (needs_film && fs::path(operand).extension() == ".vsp")
+    return Error{ErrorCode::BadFormat, operand + ": is a pack, a film is due: `vsprite play " +
+                                           shell_word(operand) + "` plays a pack as it is"};
   if (needs_film && !fs::exists(operand, error))
     return Error{ErrorCode::NotFound, operand + ": no such file"};
   const std::string work = find_work_folder(settings.work, operand, settings.output);

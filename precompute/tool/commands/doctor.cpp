@@ -213,8 +213,11 @@ void check_work(const std::string& folder, Findings& findings) {
   check_leftovers(*project, findings);
   const auto rows = project->samples();
   if (!rows) {
-    findings.push_back({kBroken, rows.error().message,
-                        "mend the line, or cut all anew: vsprite segment FILM --force segment"});
+    const bool absent = rows.error().code == ErrorCode::NotFound;
+    findings.push_back(
+        {kBroken, rows.error().message,
+         absent ? "vsprite build FILM; what an interrupted run had finished is not done again"
+                : "mend the line, or cut all anew: vsprite segment FILM --force segment"});
     return;
   }
   check_pictures(*project, *rows, findings);
