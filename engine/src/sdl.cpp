@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
 #include <utility>
 
 namespace vsprite {
@@ -16,6 +19,22 @@ namespace {
 constexpr float kDeadZone = 0.25f;
 constexpr float kRelease = 0.20f;  // a held stick may sink this far before it counts as let go
 constexpr float kKeepCosine = 0.88701f;  // cos(22.5 + 5 degrees)
+
+/// False where a Linux machine shows neither a sound card nor a sound server: ALSA would look for
+/// one all the same, and complain on stderr line after line.
+bool sound_is_likely() {
+#ifdef __linux__
+  std::error_code ignored;
+  if (std::filesystem::exists("/dev/snd", ignored)) return true;
+  if (std::getenv("PULSE_SERVER") != nullptr) return true;
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  if (runtime == nullptr) return false;
+  return std::filesystem::exists(std::string(runtime) + "/pulse/native", ignored) ||
+         std::filesystem::exists(std::string(runtime) + "/pipewire-0", ignored);
+#else
+  return true;
+#endif
+}
 
 /// SDL's parts are counted by SDL itself: every window and sound device takes its own.
 struct Subsystem {
@@ -382,6 +401,7 @@ Audio::~Audio() = default;
 bool Audio::open(std::function<void(std::span<float>)> fill, int rate) {
   impl_.reset();
   auto impl = std::make_unique<Impl>();
+  if (!sound_is_likely()) SDL_SetHint(SDL_HINT_AUDIODRIVER, "dummy");
   if (!impl->audio.start(SDL_INIT_AUDIO)) return false;
   impl->fill = std::move(fill);
   SDL_AudioSpec want{};
