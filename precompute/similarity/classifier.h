@@ -64,10 +64,26 @@ Classifier fit_classifier(const LabelledPairs& pairs, std::span<const int> chose
                           const std::array<double, kFeatureCount>& spread,
                           const TrainConfig& config);
 
+/// Errors: BadContent (one class missing: says which, and what to do), BadSetting.
+Result<void> check_labels(const FeatureSet& set, std::span<const Label> labels,
+                          const TrainConfig& config);
+
 /// Counts over held-out pairs.
 struct Confusion {
   int true_accept = 0, false_accept = 0, true_reject = 0, false_reject = 0;
 };
+
+/// Answers about pairs that chance picked (ask.h): their shares hold for the film.
+struct FalseAccepts {
+  int accepted = 0;  ///< by the classifier
+  int wrong = 0;     ///< of these, called a visible jump
+  int refused = 0;   ///< by the classifier
+  int missed = 0;    ///< of these, called smooth
+  void count(bool is_accepted, bool is_acceptable) noexcept;
+  double share() const noexcept { return accepted > 0 ? double(wrong) / accepted : 0; }
+};
+/// The largest share that `wrong` of `count` leaves likely: upper end of Wilson's 95 % interval.
+double likely_at_most(int wrong, int count) noexcept;
 
 /// What would be accepted if the line lay at D = `at`, of held-out pairs.
 struct RocPoint {
@@ -101,9 +117,13 @@ struct Training {
   std::vector<std::string> warnings;  ///< too few, contradictory, untested; a sentence each
 };
 
-/// Errors: BadContent (one class missing: says which, and what to do), BadSetting.
+/// Errors: those of check_labels.
 Result<Training> train(const FeatureSet& set, std::span<const Label> labels,
                        const TrainConfig& config);
+
+/// Of the labels that chance picked, by held-out distance, with the line at D = `at`.
+FalseAccepts estimate_false_accepts(std::span<const Label> labels, const HeldOut& checked,
+                                    double at);
 
 /// Of the person's labels, those that contradict another: a pair called acceptable that differs at
 /// least as much in every feature as one that is not. No classifier of this kind satisfies both.

@@ -200,6 +200,29 @@ Result<void> check_labels(const FeatureSet& set, std::span<const Label> labels,
   return {};
 }
 
+void FalseAccepts::count(bool is_accepted, bool is_acceptable) noexcept {
+  ++(is_accepted ? accepted : refused);
+  if (is_accepted && !is_acceptable) ++wrong;
+  if (!is_accepted && is_acceptable) ++missed;
+}
+
+double likely_at_most(int wrong, int count) noexcept {
+  if (count == 0) return 1;
+  constexpr double z = 1.959964;
+  const double n = count, p = wrong / n;
+  const double spread = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  return std::min(1.0, (p + z * z / (2 * n) + spread) / (1 + z * z / n));
+}
+
+FalseAccepts estimate_false_accepts(std::span<const Label> labels, const HeldOut& checked,
+                                    double at) {
+  FalseAccepts out;
+  for (std::size_t k = 0; k < labels.size(); ++k)
+    if (labels[k].at_random && checked.distance[k] >= 0)
+      out.count(double{checked.distance[k]} <= at, labels[k].acceptable);
+  return out;
+}
+
 int count_contradictions(const LabelledPairs& pairs) {
   std::vector<std::size_t> good, bad;
   for (std::size_t k = 0; k < pairs.labels.size(); ++k)
