@@ -15,6 +15,7 @@ namespace {
 constexpr int kApplicationId = 0x7673706C;  // "vspl"
 constexpr int kVersion = 1;
 constexpr int kBusyMilliseconds = 2000;
+constexpr std::uintmax_t kSmallest = 512;  // bytes of a page
 
 constexpr const char* kSchema =
     "CREATE TABLE answers("
@@ -76,6 +77,12 @@ void LabelStore::Close::operator()(sqlite3* database) const noexcept { sqlite3_c
 LabelStore::LabelStore(std::string path, std::unique_ptr<sqlite3, Close> database)
     : path_(std::move(path)), database_(std::move(database)) {}
 
+Error LabelStore::damaged(const std::string& how) const {
+  return {ErrorCode::CorruptData,
+          path_ + ": damaged (" + how +
+              "): put a copy back, or move it away and import a CSV with --answers"};
+}
+
 /// What SQLite's last complaint means to a person.
 Error LabelStore::fault(const char* doing) const {
   const std::string said = sqlite3_errmsg(database_.get());
@@ -84,9 +91,7 @@ Error LabelStore::fault(const char* doing) const {
       return {ErrorCode::BadFormat,
               path_ + ": is no database of labels (" + said + "): move it away"};
     case SQLITE_CORRUPT:
-      return {ErrorCode::CorruptData,
-              path_ + ": damaged (" + said +
-                  "): put a copy back, or move it away and import a CSV with --answers"};
+      return damaged(said);
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       return {ErrorCode::InUse, path_ + ": is in use by another program: close it and try again"};
@@ -112,6 +117,11 @@ Result<void> LabelStore::run(const char* sql) {
 }
 
 Result<LabelStore> LabelStore::open(const std::string& path) {
+  std::error_code absent;
+  const auto bytes = std::filesystem::file_size(path, absent);
+  if (!absent && bytes > 0 && bytes < kSmallest)  // SQLite would take it for an empty one
+    return Error{ErrorCode::BadFormat, path + ": is no database of labels (" +
+                                           std::to_string(bytes) + " bytes): move it away"};
   sqlite3* raw = nullptr;
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   const int code = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
@@ -131,6 +141,23 @@ Result<void> LabelStore::transaction(Change change) {
   // After a full disk SQLite has rolled back by itself; then this does nothing.
   if (!done) sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
   return done;
+}
+
+/// SQLite reads a file that was cut off without a word where the cut spares its tree.
+Result<void> LabelStore::check_whole() {
+  Statement check(database_.get(), "PRAGMA quick_check(1)");
+  Statement size(database_.get(),
+                 "SELECT page_count * page_size FROM pragma_page_count, pragma_page_size");
+  if (!check.ready() || check.step() != SQLITE_ROW || !size.ready() || size.step() != SQLITE_ROW)
+    return fault("read");
+  const std::string said = reinterpret_cast<const char*>(sqlite3_column_text(check.get(), 0));
+  std::error_code ignored;
+  const auto bytes = std::filesystem::file_size(path_, ignored);
+  const auto due = static_cast<std::uintmax_t>(sqlite3_column_int64(size.get(), 0));
+  if (said == "ok" && bytes == due) return {};
+  return damaged(said == "ok"
+                     ? std::to_string(bytes) + " bytes where " + std::to_string(due) + " are due"
+                     : said);
 }
 
 /// Checks whose file it is, and makes the table in an empty one.
@@ -153,7 +180,7 @@ Result<void> LabelStore::prepare() {
                      std::to_string(kVersion) +
                      ": use the newer vsprite that made it, or its `label --export`"};
   if (auto set = run("PRAGMA journal_mode = DELETE; PRAGMA synchronous = EXTRA"); !set) return set;
-  if (tables > 0) return {};
+  if (tables > 0) return check_whole();
   return transaction([this] { return run(kSchema); });
 }
 

@@ -64,10 +64,12 @@ class LabelStore {
   };
   LabelStore(std::string path, std::unique_ptr<sqlite3, Close> database);
   Error fault(const char* doing) const;
+  Error damaged(const std::string& how) const;
   Result<void> run(const char* sql);
   template <class Change>
   Result<void> transaction(Change change);
   Result<void> prepare();
+  Result<void> check_whole();
   Result<std::vector<Answer>> select(const char* sql) const;
   Result<void> insert(std::span<const Answer> answers);
   Result<std::optional<Answer>> mark(const char* find, const char* update);
