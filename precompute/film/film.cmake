@@ -9,6 +9,7 @@ target_sources(vsprite_precompute PRIVATE
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp
+  film/subject.cpp
   film/extract.cpp
   film/contact.cpp
 )

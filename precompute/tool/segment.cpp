@@ -144,7 +144,7 @@ class KeyingPass {
     if (!frames || static_cast<int>(frames->size()) != due) return false;
     for (int i = 0; i < due; ++i)
       summaries_[static_cast<std::size_t>(first + i)] =
-          summary_of((*frames)[static_cast<std::size_t>(i)]);
+          summary_of((*frames)[static_cast<std::size_t>(i)], false);
     return true;
   }
 
@@ -177,7 +177,7 @@ class KeyingPass {
   void key(KeyingItem& item) {
     if (item.stands) return;
     const KeyedFrame keyed = keyers_.local().key(*item.frame, item.before.get());
-    item.summary = summary_of(keyed);
+    item.summary = summary_of(keyed, false);
     item.packed = pack_keyed(keyed);
     item.before.reset();
   }
@@ -225,7 +225,7 @@ Result<void> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
     i += 2 * stride;
   }
   if (frames.empty()) return {};
-  const auto png = encode_png(make_contact_sheet(frames, keyed));
+  const auto png = encode_png(make_contact_sheet(frames, keyed, {}));
   if (!png) return png.error();
   return write_file(run.project.path("contact.png"),
                     {reinterpret_cast<const char*>(png->data()), png->size()});
@@ -296,14 +296,24 @@ Json segment_result(const std::string& name, const FilmInfo& info, const ScreenM
           {"height", info.height},
           {"fps", {info.fps_numerator, info.fps_denominator}},
           {"background", screen.reason},
-          {"frames", extraction.frames},
-          {"duplicates", extraction.duplicates},
+          {"frames", extraction.fates.size()},
+          {"duplicates", extraction.count(Fate::Duplicate)},
           {"samples", kept},
           {"clips", extraction.clips},
-          {"dropped_border", extraction.dropped_border},
-          {"dropped_empty", extraction.dropped_empty},
-          {"dropped_short", extraction.dropped_short},
+          {"cuts", extraction.cuts},
+          {"missing", extraction.missing},
+          {"dropped_border", extraction.count(Fate::Border)},
+          {"dropped_empty", extraction.count(Fate::Empty)},
+          {"dropped_touched", extraction.count(Fate::Touched)},
+          {"dropped_hidden", extraction.count(Fate::Hidden)},
+          {"dropped_short", extraction.count(Fate::Short)},
           {"velocity_noise", extraction.velocity_noise}};
+}
+
+SubjectChoice subject_of(const std::string& text) {
+  if (text == "only") return {SubjectChoice::kOnly};
+  if (text == "largest") return {SubjectChoice::kLargest};
+  return {std::atoi(text.c_str())};
 }
 
 }  // namespace
@@ -332,7 +342,12 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
 
   const ExtractConfig config{.max_size = run.settings.max_size,
                              .sigma = run.settings.smooth,
-                             .min_clip = run.settings.min_clip};
+                             .min_clip = run.settings.min_clip,
+                             .subject = subject_of(run.settings.subject),
+                             .ground = run.settings.anchor == "ground",
+                             .mirror = run.settings.mirror,
+                             .width = info.width,
+                             .height = info.height};
   const double fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
   const auto extraction = extract(*summaries, fps, name, config);
   if (!extraction)
