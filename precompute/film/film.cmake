@@ -12,6 +12,7 @@ target_sources(vsprite_precompute PRIVATE
   film/subject.cpp
   film/extract.cpp
   film/contact.cpp
+  film/checkup.cpp
 )
 
 # Nobody reads errno after a square root; without it the loops over cells are vectorised. The
