@@ -17,6 +17,7 @@ constexpr int kSmallWidth = 240;       // px, width of the pictures that are com
 constexpr double kTexture = 4;         // mean square gradient, the weaker direction, that tells
 constexpr double kRepeatRatio = 0.25;  // of the run's median difference: a repeated frame
 constexpr double kMovingSize = 0.25;   // of the subject's size, a second: it moves
+constexpr double kLeastBare = 0.05;    // of the picture that two frames must share
 constexpr double kLikeSize = 0.4;      // a second part this large makes several
 
 double quantile(std::vector<double> values, double share) {
@@ -187,7 +188,6 @@ CheckupMeter::Small CheckupMeter::shrink(const Frame& frame, const KeyedFrame& k
   small.width = frame.width / small.factor;
   small.height = frame.height / small.factor;
   const int f = small.factor;
-  int count = 0;
   for (int v = 0; v < small.height; ++v)
     for (int u = 0; u < small.width; ++u) {
       int sum = 0;
@@ -202,15 +202,32 @@ CheckupMeter::Small CheckupMeter::shrink(const Frame& frame, const KeyedFrame& k
                         v * f > blob.box.y + blob.box.height + reach);
       }
       small.bare.push_back(bare ? 1 : 0);
-      if (!bare) continue;
       const std::size_t cell = at(u * f / 2, v * f / 2, frame.cell_width());
-      small.cb += frame.cb[cell];
-      small.cr += frame.cr[cell];
-      ++count;
+      small.cb.push_back(frame.cb[cell]);
+      small.cr.push_back(frame.cr[cell]);
     }
-  small.cb /= std::max(count, 1);
-  small.cr /= std::max(count, 1);
   return small;
+}
+
+CheckupMeter::Light CheckupMeter::compare_light(const Small& from, const Small& to) {
+  std::vector<double> exposure, cb, cr;
+  for (std::size_t i = 0; i < from.y.size(); ++i) {
+    if (!(from.bare[i] & to.bare[i])) continue;
+    exposure.push_back((double{to.y[i]} - double{from.y[i]}) / std::max(double{from.y[i]}, 8.0));
+    cb.push_back(to.cb[i] - from.cb[i]);
+    cr.push_back(to.cr[i] - from.cr[i]);
+  }
+  if (static_cast<double>(exposure.size()) < kLeastBare * static_cast<double>(from.y.size()))
+    return {};
+  // Colour is whole code values: means of what is left when the strangers at both ends are cut off.
+  const auto middle = [](std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    double sum = 0;
+    const std::size_t begin = values.size() / 5, end = values.size() - begin;
+    for (std::size_t i = begin; i < end; ++i) sum += values[i];
+    return sum / static_cast<double>(end - begin);
+  };
+  return {middle(exposure), middle(cb), middle(cr)};
 }
 
 void CheckupMeter::add_subject(const Burst& burst) {
@@ -265,10 +282,7 @@ void CheckupMeter::add_background(const Burst& burst) {
         textured_ += shift->textured;
         if (shift->textured) shakes_.push_back(std::hypot(shift->x, shift->y) * small.factor);
       }
-      double sum = 0, old = 0;
-      for (std::size_t i = 0; i < small.y.size(); ++i)
-        if (small.bare[i] & before->bare[i]) sum += double{small.y[i]}, old += double{before->y[i]};
-      if (old > 0) steps_.push_back(std::abs(sum / old - 1));
+      steps_.push_back(std::abs(compare_light(*before, small).exposure));
     }
     if (f == 0) {
       std::vector<double> bare;
@@ -307,12 +321,9 @@ Checkup CheckupMeter::finish() const {
   c.unevenness = median(uneven_);
   const Small& middle = firsts_[firsts_.size() / 2];
   for (const Small& first : firsts_) {
-    double sum = 0, due = 0;
-    for (std::size_t i = 0; i < first.y.size(); ++i)
-      if (first.bare[i] & middle.bare[i]) sum += double{first.y[i]}, due += double{middle.y[i]};
-    if (due > 0) c.exposure_shift = std::max(c.exposure_shift, std::abs(sum / due - 1));
-    c.white_shift =
-        std::max({c.white_shift, std::abs(first.cb - middle.cb), std::abs(first.cr - middle.cr)});
+    const Light light = compare_light(middle, first);
+    c.exposure_shift = std::max(c.exposure_shift, std::abs(light.exposure));
+    c.white_shift = std::max({c.white_shift, std::abs(light.cb), std::abs(light.cr)});
     if (c.plain) continue;
     const auto level = [](const Small& s) { return Level{s.width, s.height, s.y, s.bare}; };
     const auto shift = find_shift(level(middle), level(first));
@@ -333,8 +344,8 @@ Checkup CheckupMeter::finish() const {
   c.body = median(sides);
   c.lost = median(lost);
   if (speeds.empty()) return c;
-  c.speed_fast = quantile(speeds, 0.95);
-  const double least = std::max(kMovingSize * c.speed_fast, kMovingSize * std::sqrt(median(areas)));
+  const double least =
+      std::max(kMovingSize * quantile(speeds, 0.95), kMovingSize * std::sqrt(median(areas)));
   const double slow = quantile(speeds, 1.0 / 3), fast = quantile(speeds, 2.0 / 3);
   std::vector<double> slow_edges, fast_edges;
   for (const Seen& s : seen_) {
@@ -351,6 +362,7 @@ Checkup CheckupMeter::finish() const {
   c.edge_slow = median(slow_edges);
   c.edge_fast = median(fast_edges);
   c.speed_usual = median(moving);
+  c.speed_fast = quantile(moving, 0.95);
   c.still /= static_cast<double>(speeds.size());
   for (double& heading : c.headings) heading /= static_cast<double>(speeds.size());
   return c;

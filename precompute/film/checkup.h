@@ -58,8 +58,8 @@ class CheckupMeter {
   struct Small {
     int width = 0, height = 0, factor = 1;
     std::vector<float> y;
+    std::vector<std::uint8_t> cb, cr;
     std::vector<std::uint8_t> bare;
-    double cb = 0, cr = 0;
   };
   struct Seen {
     bool present = false, whole = false, several = false;
@@ -67,7 +67,12 @@ class CheckupMeter {
     double speed = -1;  ///< px/s; below 0: not known
     Vec2 heading{};
   };
+  /// How the light changed from one to the other where both are bare: medians.
+  struct Light {
+    double exposure = 0, cb = 0, cr = 0;
+  };
   static Small shrink(const Frame& frame, const KeyedFrame& keyed);
+  static Light compare_light(const Small& from, const Small& to);
   void add_subject(const Burst& burst);
   void add_background(const Burst& burst);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "film/color.h"
 #include "film/light.h"
 
 namespace vsprite {
@@ -32,8 +33,8 @@ std::size_t offset(int x, int y, int width) {
 }
 
 Light film_light(const Frame& frame, int x, int y) {
-  const std::uint8_t* bgr = frame.bgr.data() + 3 * offset(x, y, frame.width);
-  return {{linear_of(bgr[2]), linear_of(bgr[1]), linear_of(bgr[0])}};
+  const auto rgb = rgb_at(frame, x, y);
+  return {{linear_of(rgb[0]), linear_of(rgb[1]), linear_of(rgb[2])}};
 }
 
 Light background_light(const Frame& frame, const Image& background, int x, int y) {

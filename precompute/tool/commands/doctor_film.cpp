@@ -18,6 +18,7 @@ namespace vsprite {
 namespace {
 
 constexpr int kBursts = 36, kBurstFrames = 10;
+constexpr double kOtherPlace = 20;     // code values of colour; no lamp changes so much
 constexpr double kLeastSeconds = 20;   // usable; below that few jumps are found
 constexpr double kHeadingSeconds = 2;  // of a direction; below that it is hardly served
 
@@ -63,6 +64,11 @@ Finding film_verdict(const Patient& p) {
 Finding camera_verdict(const Patient& p) {
   const Checkup& c = p.c;
   const bool plate = p.screen.kind == KeyKind::Plate;
+  if (c.white_shift > kOtherPlace)
+    return {"camera", kWarning,
+            "camera: the background itself changes, its colour by " + fixed_text(c.white_shift, 0) +
+                " of 255: the camera is turned, or something large comes into the picture",
+            "put it on a stand, and cut out what shows another place: ffmpeg -ss FROM -to TO"};
   if (c.plain)
     return {"camera", kOk, "camera: the background is plain, whether it moves cannot be told"};
   const double most = std::max(1.5, 0.003 * p.info.width);
@@ -121,8 +127,9 @@ Finding subject_verdict(const Patient& p) {
   if (c.present < 0.02)
     return {"subject", kBroken, "subject: none is found in " + std::to_string(c.frames) + " frames",
             "look: vsprite segment " + p.path + " --preview 8; or name the screen's colour: --key"};
-  std::string text = "subject: " + fixed_text(c.body, 0) + " px long, whole in " +
-                     percent(c.whole) + " of the frames";
+  std::string text = "subject: ";
+  if (c.body > 0) text += fixed_text(c.body, 0) + " px long, ";
+  text += "whole in " + percent(c.whole) + " of the frames";
   const double cut = c.present - c.whole;
   if (cut > 0.005) text += ", cut by the border in " + percent(cut);
   if (c.present < 0.995) text += ", absent in " + percent(1 - c.present);
@@ -143,6 +150,7 @@ Finding blur_verdict(const Patient& p) {
   const std::string text = "motion blur: edges are " + fixed_text(c.edge_slow, 1) +
                            " px wide at rest, " + fixed_text(c.edge_fast, 1) +
                            " px where it is fast";
+  if (!(c.edge_fast > 0)) return {"blur", kOk, "motion blur: too little of it to tell"};
   if (extra > std::max(2.0, 0.03 * c.body))
     return {"blur", kWarning, text, "more light, a shorter exposure (1/250 s)"};
   return {"blur", kOk, text};
@@ -152,26 +160,29 @@ Finding motion_verdict(const Patient& p) {
   const Checkup& c = p.c;
   const double whole = p.seconds * c.whole;
   std::string seen, missing;
-  int across = 0;
+  int served = 0, level = 0;  // directions seen for long enough, and right and left among them
   for (std::size_t d = 0; d < c.headings.size(); ++d) {
     const std::string name(direction_name(static_cast<Direction>(d)));
     const double seconds = whole * c.headings[d];
     if (seconds >= 0.05) seen += (seen.empty() ? "" : ", ") + name + " " + seconds_text(seconds);
-    if (seconds < kHeadingSeconds) missing += (missing.empty() ? "" : ", ") + name;
-    if (d % 4 != 0 && seconds >= kHeadingSeconds) ++across;
+    if (seconds < kHeadingSeconds)
+      missing += (missing.empty() ? "" : ", ") + name;
+    else
+      ++served, level += d % 4 == 0;
   }
-  if (seen.empty())
+  if (1 - c.still < 0.05)
     return {"motion", kWarning,
-            "motion: it stays in its place: the character will play by itself, not steer",
+            "motion: it hardly leaves its place, " + seconds_text(whole * (1 - c.still)) +
+                " in all: the character will play by itself, not steer",
             "film it on its way: every direction for some seconds, every turn twice"};
   const std::string text = "motion: " + seen + ", at rest " + seconds_text(whole * c.still) + "; " +
                            fixed_text(c.speed_usual, 0) + " px/s as a rule, " +
                            fixed_text(c.speed_fast, 0) + " at its fastest";
   if (missing.empty()) return {"motion", kOk, text};
-  const bool side = across == 0;
+  if (served == 2 && level == 2) return {"motion", kOk, text + "; a side view: right and left"};
   return {"motion", kWarning,
-          text + "; under " + seconds_text(kHeadingSeconds) + ": " + missing +
-              (side ? " (a side view has right and left only)" : ""),
+          text + (served == 0 ? "; no direction for " + seconds_text(kHeadingSeconds)
+                              : "; under " + seconds_text(kHeadingSeconds) + ": " + missing),
           "film more of these, with turns into them and out of them"};
 }
 
