@@ -16,14 +16,6 @@ Classifier fit_all(const LabelledPairs& pairs) {
   return fit_classifier(pairs, all, measure_spread(pairs.vectors), {});
 }
 
-void mirror(Image& image) {
-  for (int y = 0; y < image.height; ++y) {
-    auto* row = image.rgba.data() + 4 * static_cast<std::ptrdiff_t>(y) * image.width;
-    for (int x = 0; x < image.width / 2; ++x)
-      std::swap_ranges(row + 4 * x, row + 4 * x + 4, row + 4 * (image.width - 1 - x));
-  }
-}
-
 /// Agreement of every guess with its answer, also of those that were given again since.
 void count_guesses(const std::vector<Answer>& answers, LabelProgress& progress) {
   progress.agreed = progress.guessed = 0;
@@ -151,15 +143,7 @@ Result<bool> LabelSession::redo() {
 }
 
 Result<Image> LabelSession::picture(int sample) const {
-  const SampleRow& row = set_.rows[static_cast<std::size_t>(sample)];
-  const std::string path = project_->sprite_path(row.mirror_of >= 0 ? row.mirror_of : sample);
-  const auto bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  auto image =
-      decode_png({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()}, path);
-  if (!image) return image.error();
-  if (row.mirror_of >= 0) mirror(*image);
-  return image;
+  return read_sprite(*project_, set_.rows[static_cast<std::size_t>(sample)]);
 }
 
 }  // namespace vsprite
