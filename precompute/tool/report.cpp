@@ -65,6 +65,12 @@ std::vector<std::string> train_lines(const Json& r) {
     lines.push_back("held-out answers: " + confusion_text(r.value("confusion_by_person", Json())));
   }
   lines.push_back("held-out pairs: " + confusion_text(r.value("confusion", Json::object())));
+  std::string weights;
+  const Json shares = r.value("weight_shares", Json::object());
+  for (const auto& [name, share] : shares.items())
+    weights += (weights.empty() ? "" : ", ") + name + " " + fixed_text(real_of(share, "mean"), 2) +
+               " +- " + fixed_text(real_of(share, "sd"), 2);
+  if (!weights.empty()) lines.push_back("weight x sd over the folds: " + weights);
   if (const Json e = r.value("false_accepts", Json::object()); count_of(e, "accepted") > 0)
     lines.push_back("drawn at random: " + count_text(e, "wrong") + " of " +
                     count_text(e, "accepted") + " accepted pairs were called a jump; at most " +
