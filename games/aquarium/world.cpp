@@ -231,6 +231,10 @@ void step(const Sprite& sprite, World& world, const Input& input) {
   if (world.phase == Phase::Over && input.start) start_round(sprite, world);
 
   swim(sprite, world.fish[0], player_command(sprite, world, input), world.look_ahead);
+  if (world.phase == Phase::Playing) {
+    ++world.steered_ticks;
+    world.refused_ticks += world.fish[0].guard.active;
+  }
   for (std::size_t k = 1; k < world.fish.size(); ++k)
     swim(sprite, world.fish[k], think(sprite, world, k), world.look_ahead);
   if (world.phase == Phase::Playing) run_round(sprite, world);

@@ -90,6 +90,8 @@ struct World {
   int best_combo = 0;
   int phase_ticks = 0;  ///< since the phase began
   std::uint32_t next_id = 1;
+  int steered_ticks = 0;  ///< of all rounds
+  int refused_ticks = 0;  ///< of these: the glass replaced the player's command
 };
 
 /// A tank with the player's fish and `others` (2..6) that live by themselves.
