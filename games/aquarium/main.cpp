@@ -227,7 +227,7 @@ int main(int argc, char** argv) {
   vsprite::Result<aquarium::Options> options = aquarium::take_own_options(argc, argv);
   if (!options) {
     std::fprintf(stderr, "aquarium: error: %s\n", options.error().message.c_str());
-    return vsprite::games::exit_code(options.error().code);
+    return vsprite::exit_code(options.error().code);
   }
   bool help = false;
   const int code = vsprite::games::run(

@@ -224,6 +224,11 @@ void Scene::draw_fish(Renderer& renderer, vsprite::FrameCache& frames, const Mom
   look.tint = {(1 - 0.42f * fish.depth) * light, (1 - 0.10f * fish.depth) * light, 0.97f * light,
                1};
   look.fog = water_at(at);
+  // Between two ticks draw_actor knows the film's own way; a glide goes on beside it.
+  const Vec2 v = moment.sprite.samples()[fish.actor.sample].velocity;
+  const float part = moment.fraction / static_cast<float>(moment.sprite.fps());
+  look.position = {fish.glide.x * moment.fraction - v.x * part,
+                   fish.glide.y * moment.fraction - v.y * part};
   look.fog_amount = std::min(0.85f, 0.03f + 0.66f * fish.depth);
   renderer.set_camera(camera_of(view_, fish.scale));
   vsprite::draw_actor(renderer, moment.sprite, frames, fish.actor, moment.fraction, look);

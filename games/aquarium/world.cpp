@@ -18,7 +18,7 @@ using vsprite::Vec2;
 
 namespace {
 
-constexpr float kPlayerBody = 165;  // tank px from nose to tail
+constexpr float kPlayerBody = 130;  // tank px from nose to tail
 constexpr float kBite = 36;         // tank px around the mouth of the player's fish
 constexpr float kFlakeFloor = 652;  // tank px
 constexpr float kComboSeconds = 3.0f;
@@ -91,11 +91,28 @@ void hold_back(const Sprite& sprite, Fish& fish) {
   fish.actor.position.y += back(room.top - body.top, body.bottom - room.bottom);
 }
 
+/// The film's way from swimming to standing takes three frames: water does not stop a body so
+/// fast. While it rests a fish keeps what is left of its way, as in a glide.
+void glide(const Sprite& sprite, Fish& fish) {
+  constexpr float kLeft = 0.86f;  // of the way, a tick
+  const Vec2 v = sprite.samples()[fish.actor.sample].velocity;
+  const Vec2 own{v.x / fps_of(sprite), v.y / fps_of(sprite)};
+  const Vec2 kept{kLeft * fish.glide.x, kLeft * fish.glide.y};
+  const bool slower = own.x * own.x + own.y * own.y < kept.x * kept.x + kept.y * kept.y;
+  fish.glide = own;
+  if (fish.actor.direction != Direction::Rest || !slower) return;
+  const auto one = static_cast<float>(vsprite::kFixedOne);
+  fish.actor.position.x += static_cast<std::int64_t>((kept.x - own.x) * one);
+  fish.actor.position.y += static_cast<std::int64_t>((kept.y - own.y) * one);
+  fish.glide = kept;
+}
+
 void swim(const Sprite& sprite, Fish& fish, Direction wanted, int look_ahead) {
   const Direction command =
       guarded_command(sprite, fish.actor, room_of(fish), wanted, look_ahead, fish.guard);
   vsprite::set_direction(sprite, fish.actor, command);
   vsprite::step(sprite, fish.actor);
+  glide(sprite, fish);
   hold_back(sprite, fish);
   update_heading(sprite, fish);
 }

@@ -38,6 +38,7 @@ struct Fish {
   float scale = 1;              ///< tank px per sprite px
   float depth = 0;              ///< 0 at the front glass .. 1 at the back
   vsprite::Vec2 heading{1, 0};  ///< smoothed, unit length
+  vsprite::Vec2 glide;          ///< sprite px a tick: way that is left when it stops swimming
   Guard guard;
   Mind mind;
 };

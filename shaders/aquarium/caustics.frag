@@ -12,7 +12,7 @@ const float kTurn = 6.2831853;
 
 void main() {
   vec2 uv = (pixel - 0.5) / (frame_size - 1.0);
-  vec2 p = uv * kTurn - 250.0;
+  vec2 p = uv * kTurn;
   vec2 q = p;
   float t = time * 0.55 + 23.0;
   float sum = 0.0;
@@ -20,7 +20,7 @@ void main() {
   for (int n = 0; n < 4; ++n) {
     float tn = t * (1.0 - 3.5 / float(n + 1));
     q = p + vec2(cos(tn - q.x) + sin(tn + q.y), sin(tn - q.y) + cos(tn + q.x));
-    sum += 1.0 / length(vec2(p.x / (sin(q.x + tn) / 0.005), p.y / (cos(q.y + tn) / 0.005)));
+    sum += 0.81 / length(1.0 / vec2(sin(q.x + tn), cos(q.y + tn)));
   }
   sum = 1.17 - pow(sum / 4.0, 1.4);
   float net = min(pow(abs(sum), 8.0), 3.0) / 3.0;
