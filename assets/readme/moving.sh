@@ -8,5 +8,5 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 keys="0 left; 1.6 left+down; 2.8 right+down; 4 right; 5.8 right+up; 7 up; 8 left+up; 9.4 left"
 "$1/bin/aquarium" "$2" --headless --frames 330 --size 960x540 --seed 3 --keys "$keys" --record "$folder/run.mp4"
-ffmpeg -v error -y -ss 1 -i "$folder/run.mp4" -vf "fps=15,scale=480:270:flags=area" -c:v libwebp_anim \
+ffmpeg -nostdin -v error -y -ss 1 -i "$folder/run.mp4" -vf "fps=15,scale=480:270:flags=area" -c:v libwebp_anim \
   -quality 62 -compression_level 6 -loop 0 "$(dirname "${BASH_SOURCE[0]}")/aquarium.webp"

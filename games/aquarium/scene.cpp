@@ -225,10 +225,8 @@ void Scene::draw_fish(Renderer& renderer, vsprite::FrameCache& frames, const Mom
                1};
   look.fog = water_at(at);
   // Between two ticks draw_actor knows the film's own way; a glide goes on beside it.
-  const Vec2 v = moment.sprite.samples()[fish.actor.sample].velocity;
-  const float part = moment.fraction / static_cast<float>(moment.sprite.fps());
-  look.position = {fish.glide.x * moment.fraction - v.x * part,
-                   fish.glide.y * moment.fraction - v.y * part};
+  const Vec2 glide = glide_of(moment.sprite, fish);
+  look.position = {glide.x * moment.fraction, glide.y * moment.fraction};
   look.fog_amount = std::min(0.85f, 0.03f + 0.66f * fish.depth);
   renderer.set_camera(camera_of(view_, fish.scale));
   vsprite::draw_actor(renderer, moment.sprite, frames, fish.actor, moment.fraction, look);
