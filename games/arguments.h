@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "vsprite/exit_code.h"
 #include "vsprite/result.h"
 
 namespace vsprite::games {
@@ -77,37 +78,6 @@ inline Result<Arguments> parse_arguments(int argc, char** argv, const std::strin
   }
   if (out.pack.empty()) out.pack = default_pack;
   return out;
-}
-
-/// DESIGN section 4, "Exit".
-inline int exit_code(ErrorCode code) {
-  switch (code) {
-    case ErrorCode::BadSetting:
-      return 2;
-    case ErrorCode::BadFormat:
-    case ErrorCode::UnsupportedVersion:
-    case ErrorCode::CorruptData:
-    case ErrorCode::LimitExceeded:
-    case ErrorCode::BadContent:
-      return 3;
-    case ErrorCode::NotFound:
-    case ErrorCode::CannotRead:
-      return 66;
-    case ErrorCode::Internal:
-      return 70;
-    case ErrorCode::OutOfMemory:
-      return 71;
-    case ErrorCode::CannotCreate:
-      return 73;
-    case ErrorCode::CannotWrite:
-      return 74;
-    case ErrorCode::InUse:
-      return 75;
-    case ErrorCode::Interrupted:
-      return 130;
-    default:
-      return 1;
-  }
 }
 
 /// The whole of a game's main: parses, plays, says what went wrong.

@@ -4,17 +4,9 @@
 // capture/random.h - the film's own random numbers: splitmix64, by counter or in sequence.
 #pragma once
 
-#include <cstdint>
+#include "vsprite/random.h"
 
 namespace vsprite::capture {
-
-/// A good 64-bit hash of a counter.
-inline std::uint64_t mix64(std::uint64_t z) noexcept {
-  z += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
 
 class Random {
  public:

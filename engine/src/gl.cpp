@@ -225,6 +225,14 @@ void copy(const Target& from, const Target& to) {
                     GL_NEAREST);
 }
 
+void stretch(const Target& from, Id window, const Rect& place) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, window);
+  glBlitFramebuffer(0, 0, from.width, from.height, place.x, place.y + place.height,
+                    place.x + place.width, place.y, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, window);
+}
+
 void clear(float r, float g, float b, float a) {
   glClearColor(r, g, b, a);
   glClear(GL_COLOR_BUFFER_BIT);

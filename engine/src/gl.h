@@ -69,6 +69,8 @@ void draw_to(const Device& device, const Target& target);
 void draw_to_window(Id framebuffer, const Rect& viewport);
 Id current_framebuffer();
 void copy(const Target& from, const Target& to);
+/// Bilinear, turned upside down: windows count their rows from the bottom.
+void stretch(const Target& from, Id window, const Rect& place);
 void clear(float r, float g, float b, float a);
 void read(const Target& target, std::uint8_t* rgba);
 

@@ -41,6 +41,7 @@ struct Session::Impl {
   int due = 0, made = 0;   // ticks of this frame
   double owed = 0;         // seconds of play not yet made into ticks
   double frame_start = 0, frame_ms = 0, work_ms = 0;
+  float resolution = 1;
   bool paused = false, step_once = false, closed = false, first = true;
 
   Impl(SessionConfig c, Window w, Renderer r)
@@ -109,8 +110,11 @@ bool Session::next_frame() {
   smooth(m.frame_ms, elapsed * 1e3);
   m.count_due(elapsed);
   const bool own_size = m.config.headless || m.film.is_open();
-  m.renderer.begin_frame(own_size ? m.config.width : m.window.width(),
-                         own_size ? m.config.height : m.window.height());
+  const auto part = [&](int side) {
+    return side > 0 ? std::max(1, static_cast<int>(std::lround(m.resolution * float(side)))) : 0;
+  };
+  m.renderer.begin_frame(own_size ? m.config.width : part(m.window.width()),
+                         own_size ? m.config.height : part(m.window.height()));
   return true;
 }
 
@@ -175,6 +179,7 @@ double Session::seconds() const noexcept {
 
 double Session::frame_ms() const noexcept { return impl_->frame_ms; }
 double Session::work_ms() const noexcept { return impl_->work_ms; }
+void Session::set_resolution(float share) noexcept { impl_->resolution = share; }
 void Session::set_paused(bool paused) noexcept { impl_->paused = paused; }
 bool Session::is_paused() const noexcept { return impl_->paused; }
 void Session::advance_one() noexcept { impl_->step_once = true; }

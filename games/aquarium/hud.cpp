@@ -247,7 +247,6 @@ void draw_overlay(Renderer& renderer, const Moment& moment, const HudState& stat
   const vsprite::Sample& sample = data.samples[actor.sample];
   const vsprite::ControlMode& mode = data.modes[actor.mode];
   const Guard& guard = moment.world.fish[0].guard;
-  constexpr std::array<const char*, 3> kQuality{"low", "middle", "high"};
   const FrameTimes& times = state.frame_times;
   const std::array<std::string, 9> lines{
       data.name + ", mode " + mode.name,
@@ -262,7 +261,7 @@ void draw_overlay(Renderer& renderer, const Moment& moment, const HudState& stat
                 static_cast<double>(sample.velocity.y)),
       formatted("frame %.1f ms, worst %.1f", static_cast<double>(times.mean(60)),
                 static_cast<double>(times.worst())),
-      std::string("water ") + kQuality[static_cast<std::size_t>(quality)] +
+      std::string("quality ") + quality_name(quality) +
           formatted(", %.0f x %.0f", renderer.width(), renderer.height()),
       renderer.device()};
   const float left = 20;
@@ -309,6 +308,12 @@ float FrameTimes::mean(std::size_t last) const noexcept {
   float sum = 0;
   for (std::size_t k = 0; k < n; ++k) sum += at(k);
   return n == 0 ? 0 : sum / static_cast<float>(n);
+}
+
+std::size_t FrameTimes::slower_than(float milliseconds, std::size_t last) const noexcept {
+  std::size_t slow = 0;
+  for (std::size_t k = 0; k < std::min(last, filled_); ++k) slow += at(k) > milliseconds ? 1 : 0;
+  return slow;
 }
 
 float FrameTimes::worst() const noexcept {

@@ -20,6 +20,8 @@ class FrameTimes {
   void add(float milliseconds) noexcept;
   float mean(std::size_t last) const noexcept;
   float worst() const noexcept;
+  /// How many of the `last` took longer than that.
+  std::size_t slower_than(float milliseconds, std::size_t last) const noexcept;
   /// `age` 0 is the newest.
   float at(std::size_t age) const noexcept;
   std::size_t count() const noexcept { return filled_; }

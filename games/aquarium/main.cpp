@@ -39,16 +39,16 @@ class SizeWatch {
   double changed_ = -1;
 };
 
-/// Coarser water when frames take longer than a tick for a while. It never goes back up by itself:
-/// a picture that changes to and fro is worse than a coarse one.
+/// A coarser picture when most frames of half a second take longer than a tick. It never goes back
+/// up by itself: a picture that changes to and fro is worse than a coarse one.
 class QualityKeeper {
  public:
   explicit QualityKeeper(std::optional<Quality> fixed)
       : automatic_(!fixed), quality_(fixed.value_or(Quality::High)) {}
   Quality update(FrameTimes& times) {
-    constexpr std::size_t kFrames = 10;
+    constexpr std::size_t kFrames = 16;
     if (automatic_ && quality_ != Quality::Low && times.count() >= kFrames &&
-        times.mean(kFrames) > 33) {
+        times.slower_than(30, kFrames) > 12) {
       quality_ = static_cast<Quality>(static_cast<int>(quality_) - 1);
       times.clear();
     }
@@ -86,6 +86,8 @@ class Game {
   }
 
   const World& world() const { return world_; }
+  const FrameTimes& frame_times() const { return hud_.frame_times; }
+  Quality quality() const { return scene_.quality(); }
 
  private:
   void take_keys() {
@@ -158,6 +160,7 @@ class Game {
     const Moment moment{sprite_, world_, session_.fraction(), seconds};
     hud_.hint_seconds = first_start_ < 0 ? -1 : seconds - first_start_;
     scene_.set_quality(keeper_.update(hud_.frame_times));
+    session_.set_resolution(resolution_of(scene_.quality(), session_.window().height()));
     const bool settled =
         session_.window().headless() || size_.settled(renderer.width(), renderer.height(), now);
     scene_.draw(renderer, frames_, moment, settled);
@@ -204,6 +207,15 @@ Result<void> play(const vsprite::games::Arguments& arguments, const Options& opt
     std::printf("%" PRIu64 " ticks, %s, score %d, %d flakes, states %016" PRIx64 "\n", world.tick,
                 kPhases[static_cast<std::size_t>(world.phase)], world.score, world.eaten,
                 states_hash(world));
+    const int steered = std::max(1, world.steered_ticks);
+    std::printf("the glass turned the fish in %.1f %% of the ticks of play\n",
+                100.0 * world.refused_ticks / steered);
+  }
+  if (!arguments.headless && arguments.frames > 0) {
+    std::printf("quality %s, frame %.1f ms, worst %.1f, on %s\n", quality_name(game.quality()),
+                static_cast<double>(game.frame_times().mean(FrameTimes::kCount)),
+                static_cast<double>(game.frame_times().worst()),
+                session->renderer().device().c_str());
   }
   return session->finish();
 }
@@ -215,7 +227,7 @@ int main(int argc, char** argv) {
   vsprite::Result<aquarium::Options> options = aquarium::take_own_options(argc, argv);
   if (!options) {
     std::fprintf(stderr, "aquarium: error: %s\n", options.error().message.c_str());
-    return vsprite::games::exit_code(options.error().code);
+    return vsprite::exit_code(options.error().code);
   }
   bool help = false;
   const int code = vsprite::games::run(

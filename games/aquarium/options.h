@@ -17,8 +17,7 @@ inline constexpr const char* kOwnUsage =
     "\nonly here:\n"
     "  --size WxH       of the window, or of the film (1280x720)\n"
     "  --mute           without sound; M turns it on\n"
-    "  --quality Q      of the water: auto, low, middle, high (auto: what the machine can keep "
-    "up)\n"
+    "  --quality Q      low (400 lines), middle (540), high; auto: what the machine can keep up\n"
     "  --others N       fish that live by themselves, 2 to 6 (4)\n\n"
     "the pointer leads the fish while a button is held; P pause, M sound, F1 overlay\n";
 

@@ -35,6 +35,7 @@ struct Water {
   float time = 0;
   float depth = 0;
   float feather = 1;
+  bool coarse = false;  ///< few pixels to draw on: fewer nodes
   std::span<const Wake> wakes;
 };
 
@@ -123,7 +124,7 @@ Color in_water(Color c, const Water& water, Vec2 at, float light) {
 Ribbon make_blade(const Plant& plant, const Water& water, Vec2 foot, float height, float lean,
                   float half, float phase, std::size_t nodes = kMostNodes) {
   Ribbon ribbon;
-  ribbon.count = nodes;
+  ribbon.count = water.coarse ? (nodes + 3) / 2 : nodes;
   for (std::size_t k = 0; k < ribbon.count; ++k) {
     const float u = static_cast<float>(k) / static_cast<float>(ribbon.count - 1);
     Vec2 at{foot.x + lean * u * u, foot.y - height * u * (1 - 0.12f * u)};
@@ -142,7 +143,7 @@ Ribbon make_blade(const Plant& plant, const Water& water, Vec2 foot, float heigh
 void append_leaf(const Plant& plant, const Water& water, Vec2 root, Vec2 along, float half, float u,
                  std::vector<Vertex>& out) {
   Ribbon leaf;
-  leaf.count = 4;
+  leaf.count = water.coarse ? 3 : 4;
   const Color c = mix(plant.base, plant.tip, u);
   const float length = std::sqrt(along.x * along.x + along.y * along.y);
   for (std::size_t k = 0; k < leaf.count; ++k) {
@@ -202,7 +203,7 @@ void grow_sword(const Plant& plant, const Water& water, Random dice, std::vector
     const float reach = plant.height * (1 - 0.35f * side * side) * dice.between(0.75f, 1.0f);
     const float phase = dice.between(0, 6.28f);
     Ribbon leaf;
-    leaf.count = kMostNodes;
+    leaf.count = water.coarse ? 9 : kMostNodes;
     for (std::size_t n = 0; n < leaf.count; ++n) {
       const float u = static_cast<float>(n) / static_cast<float>(leaf.count - 1);
       const float out_way = side * plant.spread * (0.25f * u + 0.95f * u * u);
@@ -276,7 +277,7 @@ void grow_plant(const Plant& plant, float time, std::span<const Wake> wakes, flo
                 std::vector<Vertex>& out) {
   // Things close to the glass and far away are out of focus: their edges are softer.
   const float blur = plant.depth < 0 ? 3.0f : 1 + 2.0f * plant.depth;
-  const Water water{time, plant.depth, pixel * blur, wakes};
+  const Water water{time, plant.depth, pixel * blur, pixel > 1.2f, wakes};
   const Random dice{plant.seed};
   switch (plant.kind) {
     case PlantKind::Ribbons:

@@ -36,7 +36,7 @@ struct Wake {
 std::vector<Plant> make_plants();
 
 /// Appends the triangles of one plant in tank pixels; `pixel` tank px are one frame pixel (soft
-/// edges).
+/// edges; where they are large, fewer triangles do).
 void grow_plant(const Plant& plant, float time, std::span<const Wake> wakes, float pixel,
                 std::vector<vsprite::Vertex>& out);
 

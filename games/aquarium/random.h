@@ -4,28 +4,18 @@
 // random.h - the tank's own dice and waves: the same on every machine, no libm.
 #pragma once
 
-#include <cstdint>
+#include "vsprite/random.h"
 
 namespace aquarium {
 
-/// SplitMix64: one add and three mixes a number.
-struct Random {
-  std::uint64_t state = 0;
-
-  std::uint64_t next() noexcept {
-    std::uint64_t z = (state += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return z ^ (z >> 31);
-  }
-  /// [0, count). Pre: count > 0. The bias of the remainder is below 2^-50 here.
+struct Random : vsprite::Random {
+  /// [0, count). Pre: count > 0.
   int below(int count) noexcept {
-    return static_cast<int>((next() >> 11) % static_cast<std::uint64_t>(count));
+    return static_cast<int>(vsprite::Random::below(static_cast<std::size_t>(count)));
   }
   /// [low, high).
   float between(float low, float high) noexcept {
-    const float unit = static_cast<float>(next() >> 40) * (1.0f / 16777216.0f);
-    return low + (high - low) * unit;
+    return low + (high - low) * (static_cast<float>(next() >> 40) * (1.0f / 16777216.0f));
   }
 };
 

@@ -74,6 +74,17 @@ float unit_hash(int a, int b) {
 
 }  // namespace
 
+const char* quality_name(Quality quality) noexcept {
+  constexpr std::array<const char*, 3> kNames{"low", "middle", "high"};
+  return kNames[static_cast<std::size_t>(quality)];
+}
+
+float resolution_of(Quality quality, int window_height) noexcept {
+  constexpr std::array<float, 3> kLines{400, 540, 1e9f};
+  const float lines = kLines[static_cast<std::size_t>(quality)];
+  return std::min(1.0f, lines / static_cast<float>(std::max(1, window_height)));
+}
+
 Result<Scene> Scene::make(Renderer& renderer) {
   Scene scene;
   const auto compile = [&](Effect& effect, const char* name, const std::string& text) {
@@ -87,21 +98,20 @@ Result<Scene> Scene::make(Renderer& renderer) {
     const char* name;
     std::string text;
   };
-  const std::array<Source, 8> sources{{
+  const std::array<Source, 7> sources{{
       {&scene.wall_, "aquarium/wall.frag", common + std::string(glsl::wall_frag)},
       {&scene.gravel_, "aquarium/gravel.frag", common + std::string(glsl::gravel_frag)},
       {&scene.stone_, "aquarium/stone.frag", common + std::string(glsl::stone_frag)},
       {&scene.wood_, "aquarium/wood.frag", common + std::string(glsl::wood_frag)},
       {&scene.caustics_, "aquarium/caustics.frag", std::string(glsl::caustics_frag)},
-      {&scene.net_effect_, "aquarium/net.frag", common + std::string(glsl::net_frag)},
-      {&scene.surface_, "aquarium/surface.frag", common + std::string(glsl::surface_frag)},
-      {&scene.water_, "aquarium/water.frag", common + std::string(glsl::water_frag)},
+      {&scene.light_effect_, "aquarium/light.frag", common + std::string(glsl::light_frag)},
+      {&scene.water_, "aquarium/water.frag", std::string(glsl::water_frag)},
   }};
   for (const Source& source : sources) {
     const Result<Effect> made = compile(*source.effect, source.name, source.text);
     if (!made) return made.error();
   }
-  const Result<Layer> net = renderer.make_layer(kNetSize, kNetSize);
+  const Result<Layer> net = renderer.make_layer(kNetSize, kNetSize, vsprite::LayerFormat::Bytes);
   if (!net) return net.error();
   scene.net_ = *net;
   return scene;
@@ -143,16 +153,31 @@ void Scene::draw_backdrop(Renderer& renderer) {
   renderer.end_layer();
 }
 
-void Scene::draw_water(Renderer& renderer, float seconds) {
-  const std::array uniforms{view_uniform(view_), Uniform("time", std::fmod(seconds, 3600.0f)),
-                            Uniform("backdrop", backdrop_), Uniform("caustics", net_)};
-  const auto area = [&](float top, float bottom) {
-    return frame_area(view_, {-1e5f, top, 1e5f, bottom}, renderer.width(), renderer.height());
-  };
-  renderer.run_effect(water_, uniforms, {{}, BlendMode::Replace});
-  // Only where there is something to see: these two cost as much a pixel as the water itself.
-  renderer.run_effect(net_effect_, uniforms, {area(320, 1e5f), BlendMode::Multiply});
-  renderer.run_effect(surface_, uniforms, {area(-1e5f, 82), BlendMode::Over});
+/// All light that moves, at a part of the resolution: it is soft, and costs most of a pixel's time.
+void Scene::draw_light(Renderer& renderer, float seconds) {
+  constexpr int part = 3;
+  const int width = std::max(1, renderer.width() / part);
+  const int height = std::max(1, renderer.height() / part);
+  if (width != light_width_ || height != light_height_) {
+    renderer.free_layer(light_);
+    const Result<Layer> made = renderer.make_layer(width, height, vsprite::LayerFormat::Bytes);
+    light_ = made ? *made : Layer{};
+    light_width_ = width;
+    light_height_ = height;
+  }
+  const Uniform time("time", std::fmod(seconds, 3600.0f));
+  renderer.begin_layer(net_);
+  renderer.run_effect(caustics_, {&time, 1}, {{}, BlendMode::Replace});
+  renderer.end_layer();
+
+  const float x = static_cast<float>(width) / static_cast<float>(renderer.width());
+  const float y = static_cast<float>(height) / static_cast<float>(renderer.height());
+  const View small{view_.scale * x, {view_.offset.x * x, view_.offset.y * y}};
+  renderer.begin_layer(light_);
+  renderer.run_effect(light_effect_,
+                      std::array{view_uniform(small), time, Uniform("caustics", net_)},
+                      {{}, BlendMode::Replace});
+  renderer.end_layer();
 }
 
 void Scene::draw_far(Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment) {
@@ -165,28 +190,6 @@ void Scene::draw_far(Renderer& renderer, vsprite::FrameCache& frames, const Mome
     far = fish.depth;
   }
   draw_plants(renderer, moment, far, 0);
-}
-
-/// Draws the tank into a smaller picture and stretches it: the water, and at Low all that is far.
-void Scene::draw_coarse(Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment) {
-  const int width = std::max(1, renderer.width() / 2);
-  const int height = std::max(1, renderer.height() / 2);
-  if (width != coarse_width_ || height != coarse_height_) {
-    renderer.free_layer(coarse_);
-    const Result<Layer> made = renderer.make_layer(width, height);
-    coarse_ = made ? *made : Layer{};
-    coarse_width_ = width;
-    coarse_height_ = height;
-  }
-  const View whole = view_;
-  const float k = static_cast<float>(width) / static_cast<float>(renderer.width());
-  view_ = {whole.scale * k, {whole.offset.x * k, whole.offset.y * k}};
-  renderer.begin_layer(coarse_);
-  draw_water(renderer, moment.seconds);
-  if (quality_ == Quality::Low) draw_far(renderer, frames, moment);
-  renderer.end_layer();
-  view_ = whole;
-  renderer.draw_layer(coarse_, {{}, BlendMode::Replace});
 }
 
 void Scene::draw_plants(Renderer& renderer, const Moment& moment, float far, float near) {
@@ -221,6 +224,9 @@ void Scene::draw_fish(Renderer& renderer, vsprite::FrameCache& frames, const Mom
   look.tint = {(1 - 0.42f * fish.depth) * light, (1 - 0.10f * fish.depth) * light, 0.97f * light,
                1};
   look.fog = water_at(at);
+  // Between two ticks draw_actor knows the film's own way; a glide goes on beside it.
+  const Vec2 glide = glide_of(moment.sprite, fish);
+  look.position = {glide.x * moment.fraction, glide.y * moment.fraction};
   look.fog_amount = std::min(0.85f, 0.03f + 0.66f * fish.depth);
   renderer.set_camera(camera_of(view_, fish.scale));
   vsprite::draw_actor(renderer, moment.sprite, frames, fish.actor, moment.fraction, look);
@@ -371,16 +377,10 @@ void Scene::draw(Renderer& renderer, vsprite::FrameCache& frames, const Moment& 
     if (fish.depth < 0.4f) wakes_.push_back({place_of(fish), {v.x * fish.scale, v.y * fish.scale}});
   }
 
-  const Uniform time("time", std::fmod(moment.seconds, 3600.0f));
-  renderer.begin_layer(net_);
-  renderer.run_effect(caustics_, {&time, 1}, {{}, BlendMode::Replace});
-  renderer.end_layer();
-  if (quality_ == Quality::High) {
-    draw_water(renderer, moment.seconds);
-  } else {
-    draw_coarse(renderer, frames, moment);
-  }
-  if (quality_ != Quality::Low) draw_far(renderer, frames, moment);
+  draw_light(renderer, moment.seconds);
+  renderer.run_effect(water_, std::array{Uniform("backdrop", backdrop_), Uniform("light", light_)},
+                      {{}, BlendMode::Replace});
+  draw_far(renderer, frames, moment);
   draw_bubbles(renderer, moment.seconds, false);
   draw_food(renderer, moment);
   draw_fish(renderer, frames, moment, moment.world.fish[0]);

@@ -18,8 +18,11 @@
 
 namespace aquarium {
 
-/// Middle draws the water at half the resolution, Low everything behind the player's fish.
+/// How fine the picture is: of the moving light, of the weeds and, at Low, of the whole frame.
 enum class Quality : std::uint8_t { Low, Middle, High };
+const char* quality_name(Quality quality) noexcept;
+/// The share of a window's height and width that the frame has.
+float resolution_of(Quality quality, int window_height) noexcept;
 
 /// What is drawn, and when: `fraction` of a tick after the world's last step.
 struct Moment {
@@ -49,9 +52,8 @@ class Scene {
     float born = 0;
   };
   void draw_backdrop(vsprite::Renderer& renderer);
-  void draw_water(vsprite::Renderer& renderer, float seconds);
+  void draw_light(vsprite::Renderer& renderer, float seconds);
   void draw_far(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment);
-  void draw_coarse(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment);
   void draw_plants(vsprite::Renderer& renderer, const Moment& moment, float far, float near);
   void draw_fish(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,
                  const Fish& fish) const;
@@ -60,10 +62,10 @@ class Scene {
   void draw_bubbles(vsprite::Renderer& renderer, float seconds, bool near) const;
   void draw_motes(vsprite::Renderer& renderer, float seconds) const;
 
-  vsprite::Effect wall_, gravel_, stone_, wood_, caustics_, water_, net_effect_, surface_;
-  vsprite::Layer backdrop_, net_, coarse_;
+  vsprite::Effect wall_, gravel_, stone_, wood_, caustics_, light_effect_, water_;
+  vsprite::Layer backdrop_, net_, light_;
   int backdrop_width_ = 0, backdrop_height_ = 0;
-  int coarse_width_ = 0, coarse_height_ = 0;
+  int light_width_ = 0, light_height_ = 0;
   Quality quality_ = Quality::High;
   View view_;
   std::vector<Plant> plants_ = make_plants();

@@ -152,8 +152,10 @@ int measure_look_ahead(const Sprite& sprite) noexcept {
   return std::min(longest + longest / 4 + 4, most);
 }
 
-Direction guarded_command(const Sprite& sprite, const Actor& actor, const Box& room,
+Direction guarded_command(const Sprite& sprite, const Actor& actor, const Box& glass,
                           Direction wanted, int look_ahead, Guard& guard) noexcept {
+  const float soft = kSoftGlass * sprite.data().body_length;
+  const Box room{glass.left - soft, glass.top - soft, glass.right + soft, glass.bottom + soft};
   const Box body = body_box(sprite, actor);
   const bool same_wish = guard.active && guard.wanted == wanted;
   const bool clear = !is_compass(wanted) ||

@@ -6,9 +6,9 @@
 // A filmed fish cannot be stopped or shifted without a visible lie, so it has to turn in time. An
 // Actor is a few dozen bytes and its future is certain: for every command that might be given, the
 // guard plays a copy forwards. A command is safe if, after one tick of it, some escape keeps the
-// drawn body inside for the whole look-ahead. What was an escape in this tick is one in the next,
-// so a fish that starts safe stays safe; where none lasts so long, the one that lasts longest
-// counts.
+// drawn body inside, or nearly (kSoftGlass), for the whole look-ahead. What was an escape in this
+// tick is one in the next, so a fish that starts safe stays safe; where none lasts so long, the one
+// that lasts longest counts.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,10 @@ struct Box {
   float right = 0;
   float bottom = 0;
 };
+
+/// Body lengths that may stand out of the room while a fish turns: a guard that allows none has to
+/// refuse three times as many commands of a player who feeds.
+inline constexpr float kSoftGlass = 0.15f;
 
 /// The drawn picture's box. O(1).
 Box body_box(const vsprite::Sprite& sprite, const vsprite::Actor& actor) noexcept;
@@ -47,7 +51,7 @@ int measure_look_ahead(const vsprite::Sprite& sprite) noexcept;
 /// until the player asks for something else or the fish is well clear of the wall. Call once a
 /// tick.
 vsprite::Direction guarded_command(const vsprite::Sprite& sprite, const vsprite::Actor& actor,
-                                   const Box& room, vsprite::Direction wanted, int look_ahead,
+                                   const Box& glass, vsprite::Direction wanted, int look_ahead,
                                    Guard& guard) noexcept;
 
 }  // namespace aquarium

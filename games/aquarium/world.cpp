@@ -18,7 +18,7 @@ using vsprite::Vec2;
 
 namespace {
 
-constexpr float kPlayerBody = 165;  // tank px from nose to tail
+constexpr float kPlayerBody = 130;  // tank px from nose to tail
 constexpr float kBite = 36;         // tank px around the mouth of the player's fish
 constexpr float kFlakeFloor = 652;  // tank px
 constexpr float kComboSeconds = 3.0f;
@@ -91,11 +91,23 @@ void hold_back(const Sprite& sprite, Fish& fish) {
   fish.actor.position.y += back(room.top - body.top, body.bottom - room.bottom);
 }
 
+/// Of the film, sprite px.
+Vec2 way_of_a_tick(const Sprite& sprite, const Fish& fish) {
+  const Vec2 v = sprite.samples()[fish.actor.sample].velocity;
+  return {v.x / fps_of(sprite), v.y / fps_of(sprite)};
+}
+
 void swim(const Sprite& sprite, Fish& fish, Direction wanted, int look_ahead) {
   const Direction command =
       guarded_command(sprite, fish.actor, room_of(fish), wanted, look_ahead, fish.guard);
   vsprite::set_direction(sprite, fish.actor, command);
+  const Vec2 extra = glide_of(sprite, fish);
+  const Vec2 own = way_of_a_tick(sprite, fish);
   vsprite::step(sprite, fish.actor);
+  const auto one = static_cast<float>(vsprite::kFixedOne);
+  fish.actor.position.x += static_cast<std::int64_t>(extra.x * one);
+  fish.actor.position.y += static_cast<std::int64_t>(extra.y * one);
+  fish.glide = {own.x + extra.x, own.y + extra.y};
   hold_back(sprite, fish);
   update_heading(sprite, fish);
 }
@@ -231,6 +243,10 @@ void step(const Sprite& sprite, World& world, const Input& input) {
   if (world.phase == Phase::Over && input.start) start_round(sprite, world);
 
   swim(sprite, world.fish[0], player_command(sprite, world, input), world.look_ahead);
+  if (world.phase == Phase::Playing) {
+    ++world.steered_ticks;
+    world.refused_ticks += world.fish[0].guard.active;
+  }
   for (std::size_t k = 1; k < world.fish.size(); ++k)
     swim(sprite, world.fish[k], think(sprite, world, k), world.look_ahead);
   if (world.phase == Phase::Playing) run_round(sprite, world);
@@ -242,6 +258,15 @@ Box room_of(const Fish& fish) noexcept {
   const float side = -40 * fish.depth;
   const float s = fish.scale;
   return {(side + 14) / s, 26 / s, (kTankWidth - side - 14) / s, floor / s};
+}
+
+Vec2 glide_of(const Sprite& sprite, const Fish& fish) noexcept {
+  constexpr float kLeft = 0.86f;  // of the way, a tick
+  const Vec2 own = way_of_a_tick(sprite, fish);
+  const Vec2 kept{kLeft * fish.glide.x, kLeft * fish.glide.y};
+  const bool slower = own.x * own.x + own.y * own.y < kept.x * kept.x + kept.y * kept.y;
+  if (fish.actor.direction != Direction::Rest || !slower) return {};
+  return {kept.x - own.x, kept.y - own.y};
 }
 
 Vec2 place_of(const Fish& fish) noexcept {

@@ -38,6 +38,7 @@ struct Fish {
   float scale = 1;              ///< tank px per sprite px
   float depth = 0;              ///< 0 at the front glass .. 1 at the back
   vsprite::Vec2 heading{1, 0};  ///< smoothed, unit length
+  vsprite::Vec2 glide;          ///< sprite px it went in the last tick
   Guard guard;
   Mind mind;
 };
@@ -90,6 +91,8 @@ struct World {
   int best_combo = 0;
   int phase_ticks = 0;  ///< since the phase began
   std::uint32_t next_id = 1;
+  int steered_ticks = 0;  ///< of all rounds
+  int refused_ticks = 0;  ///< of these: the glass replaced the player's command
 };
 
 /// A tank with the player's fish and `others` (2..6) that live by themselves.
@@ -103,6 +106,10 @@ Box room_of(const Fish& fish) noexcept;
 
 /// The mouth, estimated: anchor + 0.4 body lengths along the heading; tank px.
 vsprite::Vec2 mouth_of(const vsprite::Sprite& sprite, const Fish& fish) noexcept;
+
+/// What a resting fish adds to the film's way in the tick to come, sprite px. From swimming to
+/// standing the film takes three frames: water does not stop a body so fast, so it glides.
+vsprite::Vec2 glide_of(const vsprite::Sprite& sprite, const Fish& fish) noexcept;
 
 /// The anchor, tank px.
 vsprite::Vec2 place_of(const Fish& fish) noexcept;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <deque>
 
-#include "similarity/random.h"
+#include "vsprite/random.h"
 #include "vsprite/actor.h"
 
 namespace vsprite {

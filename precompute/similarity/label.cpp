@@ -11,7 +11,7 @@
 #include <set>
 #include <utility>
 
-#include "similarity/random.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {

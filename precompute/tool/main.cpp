@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "tool/commands/verbs.h"
+#include "vsprite/exit_code.h"
 #include "vsprite/vsprite.h"
 
 namespace {

@@ -1,27 +1,21 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// water.frag - the tank behind the fish: the backdrop, and light shafts from the moving surface.
+// water.frag - the tank behind the fish: the backdrop, and the light that moves over it.
 //
-// Inputs: common.frag; backdrop, drawn by wall, gravel, wood and stone; caustics, a tile by
-// caustics.frag; time, seconds. Output: linear light, opaque.
+// Inputs: backdrop, drawn by wall, gravel, wood and stone, of the size of the frame except while a
+// window is dragged; its alpha is how much of the net falls where. light, by light.frag. Output:
+// linear light, opaque.
 uniform sampler2D backdrop;
-uniform sampler2D caustics;
-uniform float time;
-
-float net_at(vec2 turns) {
-  const float kSize = 128.0;
-  return texture(caustics, (fract(turns) * (kSize - 1.0) + 0.5) / kSize).g;
-}
+uniform sampler2D light;
 
 void main() {
-  vec2 p = tank_at(pixel);
-  vec3 c = texture(backdrop, pixel / frame_size).rgb;
-  // Shafts fan out from a lamp above the surface, left of the middle.
-  vec2 ray = p - vec2(470.0, -520.0);
-  float a = ray.x / ray.y;
-  float shaft = net_at(vec2(a * 0.42 + 0.013 * time, 0.021 * time)) *
-                net_at(vec2(a * 0.97 - 0.017 * time, 0.4 + 0.013 * time));
-  float fade = exp(-max(p.y, 0.0) / 360.0) * smoothstep(1.2, 0.2, abs(a));
-  color = vec4(c + vec3(0.22, 0.44, 0.42) * shaft * fade * 0.55, 1.0);
+  vec4 still = texelFetch(backdrop, ivec2(pixel * vec2(textureSize(backdrop, 0)) / frame_size), 0);
+  vec4 moving = texture(light, pixel / frame_size);
+  moving *= moving;
+  vec3 c = still.rgb * (1.0 + still.a * (9.0 * moving.a - 0.40));
+  c += vec3(0.22, 0.44, 0.42) * moving.r;
+  // The underside of the surface hides a little of what is behind it.
+  c += vec3(1.08, 1.98, 1.92) * moving.g + (vec3(0.24, 0.55, 0.57) - c) * moving.b;
+  color = vec4(c, 1.0);
 }

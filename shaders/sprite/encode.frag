@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// Linear premultiplied light to sRGB (IEC 61966-2-1). straight: 1 for files (straight alpha), 0 for
-// windows (over black). dither: height of the noise, in steps of 1/255. With EXACT defined target and
-// frame are of one size: no filter is needed, which halves the time of software drivers.
+// Linear premultiplied light to sRGB (IEC 61966-2-1), pixel by pixel. With FILE defined the result has
+// straight alpha, without it it lies over black, for windows. dither: height of the noise, in steps of
+// 1/255.
 in vec2 place;
 uniform sampler2D frame;
 uniform vec2 frame_size;
-uniform float straight;
 uniform float dither;
 out vec4 color;
 
@@ -20,16 +19,16 @@ vec3 encoded(vec3 l) {
 }
 
 void main() {
-#ifdef EXACT
   vec4 light = texelFetch(frame, ivec2(place * frame_size), 0);
-#else
-  vec4 light = texture(frame, place);
+#ifdef FILE
+  light.rgb /= max(light.a, 1.0 / 4096.0);
 #endif
-  if (straight > 0.5) light.rgb /= max(light.a, 1.0 / 4096.0);
   vec3 e = encoded(clamp(light.rgb, 0.0, 1.0));
-  if (dither > 0.0) {
-    float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-    e += (noise - 0.5) * dither / 255.0;
-  }
-  color = vec4(e, straight > 0.5 ? clamp(light.a, 0.0, 1.0) : 1.0);
+  float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  e += (noise - 0.5) * dither / 255.0;
+#ifdef FILE
+  color = vec4(e, clamp(light.a, 0.0, 1.0));
+#else
+  color = vec4(e, 1.0);
+#endif
 }

@@ -75,7 +75,7 @@ TEST(Aquarium, NoFishLeavesTheTankInAnHourOfRandomKeys) {
     step(sprite, world, {.direction = keys.next(), .start = true});
     const float out = worst_overhang(sprite, world);
     worst = std::max(worst, out);
-    outside += out > 0 ? 1 : 0;
+    outside += out > kSoftGlass * sprite.data().body_length + 1 ? 1 : 0;
   }
   EXPECT_LE(worst, sprite.data().body_length / 4);
   EXPECT_LT(outside, kTicks / 200) << "the fish should turn by itself, not be held back";
@@ -102,6 +102,34 @@ TEST(Aquarium, ThePlayersFishObeysAwayFromTheWalls) {
   EXPECT_GT(roomy, 1000);
 }
 
+/// Where a player who is after food steers, five times a second.
+Direction towards_food(const Sprite& sprite, const World& world) {
+  const Vec2 mouth = mouth_of(sprite, world.fish[0]);
+  Vec2 way{0, 0};
+  float least = 1e9f;
+  for (const Flake& flake : world.flakes) {
+    const Vec2 d{flake.at.x - mouth.x, flake.at.y - mouth.y};
+    if (std::hypot(d.x, d.y) >= least) continue;
+    least = std::hypot(d.x, d.y);
+    way = d;
+  }
+  return least < 1e9f ? vsprite::nearest_direction(way) : Direction::Rest;
+}
+
+TEST(Aquarium, ThePlayerWhoFeedsIsOverruledInLessThanAFifthOfTheTicks) {
+  const Sprite sprite = vsprite::testing::tiny_sprite();
+  World world = make_world(sprite, 5);
+  Direction held = Direction::Right;
+  for (int t = 0; t < 1800 * kTicksPerSecond; ++t) {
+    if (t % 6 == 0) held = towards_food(sprite, world);
+    step(sprite, world, {.direction = held, .start = true});
+  }
+  const double share = double(world.refused_ticks) / world.steered_ticks;
+  RecordProperty("overruled_percent", std::to_string(100 * share));
+  EXPECT_GT(world.steered_ticks, 50000);
+  EXPECT_LT(share, 0.2);
+}
+
 TEST(Aquarium, AFishThatIsDrivenAtAWallTurnsBeforeIt) {
   const Sprite sprite = vsprite::testing::tiny_sprite();
   World world = make_world(sprite, 5, 2);
@@ -110,9 +138,31 @@ TEST(Aquarium, AFishThatIsDrivenAtAWallTurnsBeforeIt) {
     step(sprite, world, {.direction = Direction::Right});
     refused += world.fish[0].actor.direction != Direction::Right ? 1 : 0;
     const Fish& fish = world.fish[0];
-    ASSERT_LE(overhang(room_of(fish), body_box(sprite, fish.actor)), 0) << "tick " << t;
+    ASSERT_LE(overhang(room_of(fish), body_box(sprite, fish.actor)),
+              kSoftGlass * sprite.data().body_length)
+        << "tick " << t;
   }
   EXPECT_GT(refused, 100);
+}
+
+TEST(Aquarium, AFishWhoseKeyIsReleasedGlidesToAStop) {
+  const Sprite sprite = vsprite::testing::tiny_sprite();
+  World world = playing_world(sprite);
+  for (int t = 0; t < 4; ++t) step(sprite, world, {.direction = Direction::Right});
+  const auto way_of_a_tick = [&](Direction direction) {
+    const Vec2 before = place_of(world.fish[0]);
+    step(sprite, world, {.direction = direction});
+    const Vec2 after = place_of(world.fish[0]);
+    return std::hypot(after.x - before.x, after.y - before.y);
+  };
+  const float first = way_of_a_tick(Direction::Right);
+  float last = first;
+  for (int t = 0; t < 60; ++t) {
+    const float now = way_of_a_tick(Direction::Rest);
+    EXPECT_GT(now, 0.8f * last - 0.1f) << "tick " << t;
+    last = now;
+  }
+  EXPECT_LT(last, 0.5f * first);
 }
 
 TEST(Aquarium, TheSameKeysGiveTheSameStates) {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "similarity/random.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {

@@ -15,7 +15,7 @@
 #include "control/solve.h"
 #include "similarity/features.h"
 #include "similarity/label.h"
-#include "similarity/random.h"
+#include "vsprite/random.h"
 #include "similarity/transitions.h"
 #include "tool/pictures.h"
 #include "tool/project.h"

@@ -65,6 +65,9 @@ class Session {
   double seconds() const noexcept;      ///< of play: ticks and fraction
   double frame_ms() const noexcept;     ///< from frame to frame, smoothed
   double work_ms() const noexcept;      ///< of that, until show(), smoothed
+  /// Frames of this share of the window's width and height, (0, 1], stretched over the window: for
+  /// slow machines. From the next frame on; headless runs and films keep their size.
+  void set_resolution(float share) noexcept;
   void set_paused(bool paused) noexcept;
   bool is_paused() const noexcept;
   void advance_one() noexcept;  ///< one tick although paused

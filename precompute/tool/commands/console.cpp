@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "tool/report.h"
+#include "vsprite/exit_code.h"
 
 namespace vsprite {
 namespace {
@@ -134,38 +135,6 @@ void Console::end_stage(const std::string& stage, bool skipped) {
 
 void Console::clear_bar() {
   if (mode_ == Mode::Bar) std::fputs("\r\x1b[K", stderr);
-}
-
-int exit_code(ErrorCode code) noexcept {
-  switch (code) {
-    case ErrorCode::BadSetting:
-      return 2;
-    case ErrorCode::BadFormat:
-    case ErrorCode::UnsupportedVersion:
-    case ErrorCode::CorruptData:
-    case ErrorCode::LimitExceeded:
-    case ErrorCode::BadContent:
-      return 3;
-    case ErrorCode::NotFound:
-    case ErrorCode::CannotRead:
-      return 66;
-    case ErrorCode::Internal:
-      return 70;
-    case ErrorCode::OutOfMemory:
-      return 71;
-    case ErrorCode::CannotCreate:
-      return 73;
-    case ErrorCode::CannotWrite:
-      return 74;
-    case ErrorCode::InUse:
-      return 75;
-    case ErrorCode::Interrupted:
-      return 130;
-    case ErrorCode::DecoderFailed:
-    case ErrorCode::Unavailable:
-      return 1;
-  }
-  return 70;
 }
 
 const char* code_name(ErrorCode code) noexcept {

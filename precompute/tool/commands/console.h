@@ -49,8 +49,6 @@ class Console {
   std::mutex guard_;  ///< progress may come from any thread
 };
 
-/// The process's exit code (DESIGN section 4).
-int exit_code(ErrorCode code) noexcept;
 /// Stable name for scripts: "bad-format", ...
 const char* code_name(ErrorCode code) noexcept;
 

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// renderer.h - what a Renderer holds; shared by draw.cpp, draw_text.cpp and draw_effect.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "atlas.h"
+#include "gl.h"
+#include "light_table.h"
+#include "vsprite/draw.h"
+
+namespace vsprite {
+namespace detail {
+
+struct Program {
+  std::string name;
+  gl::Id id = 0;
+  std::map<std::string, int, std::less<>> locations;
+
+  int location(std::string_view uniform) {
+    const auto found = locations.find(uniform);
+    if (found != locations.end()) return found->second;
+    std::string key(uniform);
+    const int place = gl::find_uniform(id, key.c_str());
+    return locations.emplace(std::move(key), place).first->second;
+  }
+  void set(std::string_view uniform, std::initializer_list<float> values) {
+    gl::set(location(uniform), static_cast<int>(values.size()), {values.begin(), values.size()});
+  }
+};
+
+/// What is drawn into: the frame or a layer, with a copy for effects that look at it.
+struct Surface {
+  gl::Target main;
+  gl::Target copy;
+  void free() {
+    gl::free_target(main);
+    gl::free_target(copy);
+  }
+};
+
+constexpr int kPageSide = 2048;
+constexpr std::size_t kTexelBytes = 8;  // four half floats
+
+enum class Kind { Nothing, Sprites, Shapes, Triangles };
+
+}  // namespace detail
+
+struct Renderer::Impl {
+  RendererConfig config;
+  RendererStats stats;
+  detail::gl::Device device;
+  detail::LightTable light;
+  detail::Atlas atlas;
+  std::vector<detail::gl::Id> pages;
+  detail::Program sprite_program, shape_program, flat_program, window_program, file_program;
+  detail::gl::Stream sprite_stream, shape_stream, flat_stream, empty_stream;
+  std::vector<detail::Program> effects;
+  Effect layer_effect;
+  std::vector<detail::Surface> layers;
+  detail::Surface frame;
+  detail::gl::Target encoded;
+  detail::Surface* target = nullptr;  // null: drawing does nothing
+  bool in_frame = false;
+  detail::gl::Id window_framebuffer = 0;
+  Rect window_fit;
+  Camera camera;
+
+  detail::Kind kind = detail::Kind::Nothing;
+  BlendMode blend = BlendMode::Over;
+  int page = -1;
+  std::vector<float> batch;
+  std::vector<std::uint16_t> staging;
+  std::uint32_t uncached = 0;
+
+  explicit Impl(const RendererConfig& c, detail::gl::Device d)
+      : config(c),
+        device(std::move(d)),
+        atlas(std::min(detail::kPageSide, device.max_size), device.max_size, c.texture_budget,
+              detail::kTexelBytes) {}
+  ~Impl();
+
+  Result<void> set_up();
+  void flush();
+  void select(detail::Kind wanted, BlendMode mode, int wanted_page = -1);
+  void use_surface(detail::Surface* surface);
+  void drop_frame();
+  std::optional<detail::AtlasSlot> store(const TextureKey& key, ImageView image);
+  void push(std::initializer_list<float> values) {
+    batch.insert(batch.end(), values.begin(), values.end());
+  }
+  void push_picture(const detail::AtlasSlot& slot, Vec2 corner, Vec2 x_axis, Vec2 y_axis,
+                    Color tint, Color fog, float fog_amount);
+  Vec2 to_frame(Vec2 p) const noexcept {
+    return {(p.x - camera.origin.x) * camera.scale + camera.offset.x,
+            (p.y - camera.origin.y) * camera.scale + camera.offset.y};
+  }
+  /// The whole frame into the current viewport, of the same size.
+  void encode(detail::Program& program, bool flip);
+  /// The same into `encoded`. False if the GPU has no memory for it.
+  bool encode_apart(detail::Program& program);
+  void draw_line_of_text(std::string_view text, Vec2 at, float size, const TextStyle& style);
+};
+
+}  // namespace vsprite
