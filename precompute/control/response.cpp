@@ -179,6 +179,24 @@ ServedDirections serve_directions(const std::array<DirectionReport, kCompassCoun
   return result;
 }
 
+void serve(const Sprite& sprite, int mode, std::uint64_t seed, std::uint32_t wanted,
+           ControlMode& result) {
+  auto reports = measure_directions(sprite, mode, seed);
+  for (std::size_t d = 0; d < kCompassCount; ++d) {
+    if ((wanted >> d & 1u) == 0) reports[d].reachable = false;
+  }
+  const ServedDirections served = serve_directions(reports);
+  result.served = served.served;
+  result.table_of = served.table_of;
+  result.served_headings = 0;
+  const std::uint32_t fine = result.headings / kCompassCount;
+  for (std::uint32_t h = 0; h < result.headings; ++h) {
+    const std::uint32_t d = h / fine, after = h % fine == 0 ? d : (d + 1) % kCompassCount;
+    if ((served.served >> d & 1u) != 0 && (served.served >> after & 1u) != 0)
+      result.served_headings |= 1u << h;
+  }
+}
+
 SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script,
                              std::uint64_t frames, std::uint64_t seed,
                              std::vector<TraceRow>* trace) {

@@ -45,6 +45,11 @@ struct ServedDirections {
 /// two equally near, the one that tracks better), else Rest.
 ServedDirections serve_directions(const std::array<DirectionReport, kCompassCount>& reports);
 
+/// Measures a mode and writes into it what it serves: of the `wanted` directions (bit d) those that
+/// it travels, their headings, and the headings between two of them.
+void serve(const Sprite& sprite, int mode, std::uint64_t seed, std::uint32_t wanted,
+           ControlMode& result);
+
 /// A headless control run: one row a tick.
 struct TraceRow {
   std::uint64_t frame = 0;  ///< ticks made, from 1

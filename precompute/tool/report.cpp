@@ -75,11 +75,16 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     for (const Json& reason : r.value("reasons", Json::array()))
       if (reason.is_string()) lines.push_back(reason.get<std::string>());
   } else if (stage.name == "solve") {
-    char text[160];
-    std::snprintf(text, sizeof text, "%s tables, alpha %g, w1 %g, cap %g; values exact to %.2g",
-                  count_text(r, "tables").c_str(), real_of(r, "alpha"), real_of(r, "w1"),
-                  real_of(r, "cap"), real_of(r, "error_bound"));
-    lines.push_back(text);
+    const auto line = [&](const char* name, const Json& mode) {
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    "%s: %s tables, alpha %.4g, w1 %.3g, cap %.3g; values exact to %.2g", name,
+                    count_text(mode, "tables").c_str(), real_of(mode, "alpha"), real_of(mode, "w1"),
+                    real_of(mode, "cap"), real_of(mode, "error_bound"));
+      lines.push_back(text);
+    };
+    if (r.contains("responsive")) line("responsive", r["responsive"]);
+    line("paper", r);
   } else if (stage.name == "pack") {
     lines.push_back(bytes_text(static_cast<std::uint64_t>(count_of(r, "pack_bytes"))));
   }
@@ -114,15 +119,24 @@ Json direction_list(const ControlMode& mode) {
 }
 
 Json mode_json(const ControlMode& mode) {
-  return {{"mode", mode.name},
-          {"alpha", mode.alpha},
-          {"w1", mode.w1},
-          {"cap", mode.cap},
-          {"free_steps", mode.stages - 1},
-          {"directions", direction_list(mode)},
-          {"tables", kDirectionCount * mode.stages},
-          {"residual", mode.residual},
-          {"error_bound", mode.error_bound}};
+  Json out = {{"mode", mode.name}, {"alpha", mode.alpha}, {"w1", mode.w1}, {"cap", mode.cap}};
+  if (mode.by_state) {
+    out["turn_w1"] = mode.turn_w1;
+    out["change_rate"] = mode.change_rate;
+    out["speed_weight"] = mode.speed_weight;
+    out["play_through"] = mode.plays_through;
+    out["skip_price"] = mode.skip_price;
+    out["exit_deg"] = mode.exit_angle * 180 / kPi;
+    out["bend_deg"] = mode.dead_angle * 180 / kPi;
+  } else {
+    out["free_steps"] = mode.stages - 1;
+  }
+  out["headings"] = mode.headings;
+  out["directions"] = direction_list(mode);
+  out["tables"] = mode.tables();
+  out["residual"] = mode.residual;
+  out["error_bound"] = mode.error_bound;
+  return out;
 }
 
 std::array<int, 2> largest_picture(const SpriteData& data) {
@@ -239,11 +253,22 @@ std::string info_text(const std::string& path, const Sprite& sprite, const PackI
       if (mode.served >> d & 1u)
         served +=
             (served.empty() ? "" : ", ") + std::string(direction_name(static_cast<Direction>(d)));
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "  mode %s: alpha %g, w1 %g, cap %g, K = %u, error bound %.2g\n",
-                  mode.name.c_str(), double{mode.alpha}, double{mode.w1}, double{mode.cap},
-                  mode.stages - 1, mode.error_bound);
+    char text[300];
+    std::snprintf(text, sizeof text, "  mode %s: alpha %.4g, w1 %.3g, cap %.3g", mode.name.c_str(),
+                  double{mode.alpha}, double{mode.w1}, double{mode.cap});
+    out += text;
+    if (mode.by_state) {
+      std::snprintf(text, sizeof text,
+                    ", turning w1 %.3g, expects a change in %.3g of the samples, bends up to %.3g "
+                    "degrees%s",
+                    double{mode.turn_w1}, double{mode.change_rate},
+                    double{mode.dead_angle} * 180 / kPi,
+                    mode.plays_through ? ", plays through" : "");
+    } else {
+      std::snprintf(text, sizeof text, ", K = %u", mode.stages - 1);
+    }
+    out += text;
+    std::snprintf(text, sizeof text, ", error bound %.2g\n", mode.error_bound);
     out += text;
     out += "    serves " +
            (served.empty() ? std::string("no direction: it plays by itself") : served) + "\n";

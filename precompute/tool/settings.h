@@ -40,11 +40,23 @@ struct Settings {
   double w1 = 0.6;
   double cap = 0.8;
   int free_steps = 5;
+  std::string solver = "policy";
+  std::string directions = "auto";
+  double response_alpha = 0.985;
+  double response_cap = 0;  ///< 0: by reachability
+  double cruise_w1 = 0.2;
+  double turn_w1 = 2;
+  double change_rate = 0.25;  ///< a second
+  double speed_weight = 0.3;
+  std::string play_through = "on";
+  double skip_price = 1;
+  double bend = 15;
+  double exit_angle = 25;
 
   // Playing it.
   std::string keys;
-  int frames = 0;  ///< 0: the verb's own default
-  std::string mode = "paper";
+  int frames = 0;    ///< 0: the verb's own default
+  std::string mode;  ///< empty: the verb's own default
   std::string trace;
   std::string record;
   bool headless = false;

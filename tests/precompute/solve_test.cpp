@@ -68,12 +68,12 @@ TEST(Solve, AgreesWithThePapersIterationWithinTheCertifiedBound) {
   const SolveConfig config{.alpha = 0.97, .w1 = 0.5, .cap = 10, .free_steps = 2};
   const auto solution = solve(costs, v, 20, config);
   ASSERT_TRUE(solution);
-  EXPECT_LT(solution->residual, 1e-5);
+  EXPECT_LT(solution->mode.residual, 1e-5);
   for (int d = 0; d < kDirectionCount; ++d) {
     const auto due = iterate(costs, v, 20, static_cast<Direction>(d), 0.5, 0.97);
     const float* values = solution->values.data() + static_cast<std::size_t>(d) * 3 * 61;
     for (std::size_t i = 0; i < 60; ++i) {
-      EXPECT_NEAR(static_cast<double>(values[i]), due[i], solution->error_bound + 1e-9);
+      EXPECT_NEAR(static_cast<double>(values[i]), due[i], solution->mode.error_bound + 1e-9);
     }
     EXPECT_TRUE(std::isinf(values[60]));
   }
@@ -101,7 +101,7 @@ TEST(Solve, GivesTheSameTablesAtEveryThreadCount) {
   const auto one = solve(costs, v, 20, {}, 1), four = solve(costs, v, 20, {}, 4);
   ASSERT_TRUE(one && four);
   EXPECT_EQ(one->values, four->values);
-  EXPECT_EQ(one->next, four->next);
+  EXPECT_EQ(one->mode.next, four->mode.next);
 }
 
 TEST(Solve, NeverEmptiesARowByTheCap) {
@@ -110,8 +110,8 @@ TEST(Solve, NeverEmptiesARowByTheCap) {
   const auto v = random_velocities(51, random);
   const auto solution = solve(costs, v, 20, {.cap = 1e-6});
   ASSERT_TRUE(solution);
-  for (std::size_t k = 0; k < solution->next.size(); ++k) {
-    EXPECT_EQ(solution->next[k] == kNoSample, k % 51 == 50);
+  for (std::size_t k = 0; k < solution->mode.next.size(); ++k) {
+    EXPECT_EQ(solution->mode.next[k] == kNoSample, k % 51 == 50);
   }
 }
 

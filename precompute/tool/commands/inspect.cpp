@@ -73,7 +73,7 @@ Result<int> run_validate(const Settings& settings, Console& console) {
 Result<int> run_steer(const Settings& settings, Console& console) {
   const auto sprite = load_operand(settings);
   if (!sprite) return sprite.error();
-  const int mode = sprite->find_mode(settings.mode);
+  const int mode = settings.mode.empty() ? 0 : sprite->find_mode(settings.mode);
   if (mode < 0)
     return Error{ErrorCode::BadContent, settings.film + ": it holds no mode `" + settings.mode +
                                             "`: use --mode " + sprite->data().modes.front().name};
