@@ -10,7 +10,7 @@
 // A change of command enters the phase `turn`; p' = cruise from the first sample j on that lies
 // within `exit` of the command and moves, else p' = p. rho is the chance that the player changes
 // the command, so the sprite waits in poses from which it can turn. The speed term s keeps it from
-// waiting curled up. i -> i+2 inside a clip (play-through) is allowed whatever the cap; the engine
+// waiting curled up. i -> i+2 inside a clip (play-through) counts as a jump; the engine
 // turns displacements by up to `bend` towards the command, so so much is free here.
 //
 // The command is random, the next sample is not: for a given mean M_j^l = mean_{m != l}

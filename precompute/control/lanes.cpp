@@ -217,7 +217,7 @@ Edges make_edges(const CostTable& costs, std::span<const float> skip_costs,
     for (const Transition& t : row) cheapest = std::min(cheapest, t.cost);
     const double limit = std::max(config.cap, static_cast<double>(cheapest));
     const bool skips = config.skip_price >= 0 && i < skip_costs.size() &&
-                       std::isfinite(skip_costs[i]) && !row.empty();
+                       static_cast<double>(skip_costs[i]) <= config.cap && !row.empty();
     const auto add = [&](std::uint32_t to, float price) {
       edges.to.push_back(to);
       edges.price.push_back(price);

@@ -36,7 +36,7 @@ struct Edges {
 struct PriceConfig {
   double cap = 1;          ///< dearer transitions are left out, but for the cheapest of a row
   int power = 1;           ///< price = T^power
-  double skip_price = -1;  ///< >= 0: i -> i+2 costs (skip_price x its T)^power, whatever the cap
+  double skip_price = -1;  ///< >= 0: i -> i+2 costs (skip_price x its T)^power
 };
 /// `skip_costs`: (N) T of leaving out the next sample, or infinity; empty: none.
 Edges make_edges(const CostTable& costs, std::span<const float> skip_costs,

@@ -33,7 +33,8 @@ Ways make_ways(const CostTable& costs, std::span<const float> skip_costs, double
       if (static_cast<double>(costs.transitions[e].cost) <= cap)
         ways.forward.transitions.push_back(costs.transitions[e]);
     }
-    const bool skips = play_through && i < skip_costs.size() && std::isfinite(skip_costs[i]);
+    const bool skips =
+        play_through && i < skip_costs.size() && static_cast<double>(skip_costs[i]) <= cap;
     if (skips) ways.forward.transitions.push_back({static_cast<std::uint32_t>(i + 2), 0});
     ways.forward.row_start.push_back(static_cast<std::uint32_t>(ways.forward.transitions.size()));
   }

@@ -3,6 +3,7 @@
 #include "tool/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "vsprite/geometry.h"
@@ -286,12 +287,18 @@ Json steer_json(const SteerReport& report) {
   out["frames_to_turn"] = {{"median", nullptr}, {"p95", nullptr}};
   if (report.turns > 0)
     out["frames_to_turn"] = {{"median", report.turn_median}, {"p95", report.turn_p95}};
+  out["first_change"] = {{"median", nullptr}, {"p95", nullptr}};
+  if (report.turns > 0)
+    out["first_change"] = {{"median", report.first_change_median},
+                           {"p95", report.first_change_p95}};
   out["turns"] = report.turns;
   out["unfinished"] = report.unfinished;
   out["transition_cost"] = {
       {"mean", report.cost_mean}, {"p99", report.cost_p99}, {"max", report.cost_max}};
   out["jumps_per_second"] = report.jumps_per_second;
   out["freezes"] = report.freezes;
+  out["speed"] = report.speed;
+  out["travel_share"] = report.travel_share;
   return out;
 }
 
@@ -306,11 +313,91 @@ std::string steer_text(const SteerReport& report, double fps) {
            fixed_text(1000 * report.turn_median / fps, 0) + " ms), 95 % " +
            fixed_text(report.turn_p95, 1) + " (" + fixed_text(1000 * report.turn_p95 / fps, 0) +
            " ms); " + std::to_string(report.unfinished) + " of " + std::to_string(report.turns) +
-           " unfinished\n";
+           " unfinished; the picture answers after " + fixed_text(report.first_change_median, 0) +
+           ", 95 % " + fixed_text(report.first_change_p95, 0) + "\n";
   out += "  transition cost         mean " + fixed_text(report.cost_mean, 4) + ", 99 % " +
          fixed_text(report.cost_p99, 3) + ", largest " + fixed_text(report.cost_max, 3) + "\n";
   out += "  jumps a second          " + fixed_text(report.jumps_per_second, 2) + "\n";
+  if (report.travel_share != 0)
+    out += "  along the command       " + fixed_text(100 * report.travel_share, 0) +
+           " % of the way, at " + fixed_text(report.speed, 0) + " px/s\n";
   out += "  freezes                 " + std::to_string(report.freezes) + "\n";
+  return out;
+}
+
+Json bench_json(const BenchResult& result) {
+  Json curves = Json::array(), floor = Json::array();
+  for (const CurvePoint& p : result.curves) {
+    const Json settings = p.mode == "paper" ? Json{{"alpha", p.paper.alpha},
+                                                   {"w1", p.paper.w1},
+                                                   {"cap", p.paper.cap},
+                                                   {"free_steps", p.paper.free_steps}}
+                                            : Json{{"alpha", p.joint.alpha},
+                                                   {"cap", p.joint.cap},
+                                                   {"turn_w1", p.joint.turn_w1},
+                                                   {"cruise_w1", p.joint.cruise_w1},
+                                                   {"change_rate", p.joint.change_rate},
+                                                   {"speed_weight", p.joint.speed_weight},
+                                                   {"play_through", p.joint.play_through},
+                                                   {"skip_price", p.joint.skip_price},
+                                                   {"bend_deg", p.joint.bend_deg},
+                                                   {"exit_deg", p.joint.exit_deg}};
+    curves.push_back(
+        {{"mode", p.mode},
+         {"settings", settings},
+         {"default", p.is_default},
+         {"frames_to_turn", {{"median", p.turn_median}, {"p95", p.turn_p95}}},
+         {"first_change", {{"median", p.first_change_median}, {"p95", p.first_change_p95}}},
+         {"turns", p.turns},
+         {"unfinished", p.unfinished},
+         {"transition_cost", {{"mean", p.cost_mean}, {"p99", p.cost_p99}, {"max", p.cost_max}}},
+         {"jumps_per_second", p.jumps_per_second},
+         {"tracking_error_deg", {{"mean", p.tracking_mean}, {"worst", p.tracking_worst}}},
+         {"speed_ratio", p.speed_ratio},
+         {"travel_share", {{"fast", p.share_fast}, {"slow", p.share_slow}}}});
+  }
+  for (const Reach& r : result.floor) {
+    Json entry = {{"cap", r.cap}, {"median", nullptr}, {"connected", r.connected}};
+    if (std::isfinite(r.floor)) entry["median"] = r.floor;
+    floor.push_back(entry);
+  }
+  return {{"curves", curves}, {"floor", floor}};
+}
+
+std::string bench_text(const BenchResult& result, double fps) {
+  std::string out =
+      "                                      frames to turn    transition cost   jumps   angle off "
+      " "
+      "speed  share along\n"
+      "  mode        cap    w1 (turn/cruise) median p95 unfin.  mean  99 %        a sec  mean "
+      "worst "
+      " kept   fast slow\n";
+  char line[300];
+  for (const CurvePoint& p : result.curves) {
+    const bool paper = p.mode == "paper";
+    char weight[40];
+    if (paper)
+      std::snprintf(weight, sizeof weight, "%g", p.paper.w1);
+    else
+      std::snprintf(weight, sizeof weight, "%g/%.3g", p.joint.turn_w1, p.joint.cruise_w1);
+    std::snprintf(line, sizeof line,
+                  "%s %-11s %-5.3g  %-16s %6.1f %4.0f %5d  %.4f %.3f    %6.2f %6.1f %5.1f  %5.2f  "
+                  "%5.2f %.2f\n",
+                  p.is_default ? "*" : " ", p.mode.c_str(), paper ? p.paper.cap : p.joint.cap,
+                  weight, p.turn_median, p.turn_p95, p.unfinished, p.cost_mean, p.cost_p99,
+                  p.jumps_per_second, p.tracking_mean, p.tracking_worst, p.speed_ratio,
+                  p.share_fast, p.share_slow);
+    out += line;
+  }
+  out += "  * as the sprite was built; one frame is " + fixed_text(1000 / fps, 1) + " ms\n\n";
+  out +=
+      "  cap    frames to the first sample that goes there (median)   moving samples connected\n";
+  for (const Reach& r : result.floor) {
+    std::snprintf(line, sizeof line, "  %-5.2f  %-10s %55.1f %%\n", r.cap,
+                  std::isfinite(r.floor) ? fixed_text(r.floor, 0).c_str() : "never",
+                  100 * r.connected);
+    out += line;
+  }
   return out;
 }
 

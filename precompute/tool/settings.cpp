@@ -211,6 +211,9 @@ void add_use_options(Row& t) {
          "which solved tables; default: the pack's own (steer), paper (dump)", " steer dump play ",
          "paper|responsive");
   t.text("trace", "FILE", &Settings::trace, "one line a tick, as CSV", " steer ");
+  t.flag("bench", &Settings::bench,
+         "all modes over a grid of settings, ten random runs each; -o FILE.svg draws the curves",
+         " steer ");
   t.flag("headless", &Settings::headless, "no window: play the keys and end", " play ");
   t.text("record", "FILE", &Settings::record, "film of the run (.mp4) or last picture (.png)",
          " play ");
@@ -223,7 +226,7 @@ void add_use_options(Row& t) {
 }
 
 void add_common_options(Row& t) {
-  t.text("output", "FILE", &Settings::output, "the file to write", " build pack dump play ")
+  t.text("output", "FILE", &Settings::output, "the file to write", " build pack dump play steer ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",

@@ -58,6 +58,7 @@ struct Settings {
   int frames = 0;    ///< 0: the verb's own default
   std::string mode;  ///< empty: the verb's own default
   std::string trace;
+  bool bench = false;
   std::string record;
   bool headless = false;
 
