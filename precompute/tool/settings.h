@@ -45,10 +45,10 @@ struct Settings {
   double response_alpha = 0.985;
   double response_cap = 0;  ///< 0: by reachability
   double cruise_w1 = 0.2;
-  double turn_w1 = 2;
+  double turn_w1 = 1.5;
   double change_rate = 0.25;  ///< a second
   double speed_weight = 0.3;
-  std::string play_through = "on";
+  std::string play_through = "off";
   double skip_price = 1;
   double bend = 15;
   double exit_angle = 25;

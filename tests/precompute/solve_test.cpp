@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "similarity/random.h"
+#include "support/dense_control.h"
 
 namespace vsprite {
 namespace {
@@ -76,6 +77,49 @@ TEST(Solve, AgreesWithThePapersIterationWithinTheCertifiedBound) {
       EXPECT_NEAR(static_cast<double>(values[i]), due[i], solution->mode.error_bound + 1e-9);
     }
     EXPECT_TRUE(std::isinf(values[60]));
+  }
+}
+
+// Equation 2 as a matrix, from F = T: what the tables hold is that F, row by row.
+TEST(Solve, GivesTheFOfThePaperLiterally) {
+  Random random{7};
+  const CostTable costs = random_costs(30, random);
+  const auto v = random_velocities(31, random);
+  const auto solution = solve(costs, v, 20, {.alpha = 0.95, .w1 = 0.4, .cap = 1, .free_steps = 0});
+  ASSERT_TRUE(solution);
+  const auto t = testing::dense_costs(costs, 1);
+  for (std::size_t d = 0; d < kDirectionCount; ++d) {
+    std::vector<double> angle;
+    for (const Vec2& w : v) angle.push_back(direction_cost(w, 20, static_cast<Direction>(d)));
+    const auto f = testing::dense_f(t, angle, 0.4, 0.95);
+    for (std::size_t i = 0; i < 30; ++i) {
+      const std::uint32_t next = solution->mode.next[d * 31 + i];
+      double least = testing::kNever;
+      for (std::size_t j = 0; j < 30; ++j) {
+        least = std::min(least, f[i * 31 + j]);
+        if (!std::isfinite(t[i * 31 + j])) continue;
+        const auto go = static_cast<double>(solution->mode.go[d * 31 + j]);
+        ASSERT_NEAR(f[i * 31 + j], t[i * 31 + j] + go, solution->mode.error_bound + 1e-5);
+      }
+      ASSERT_NEAR(f[i * 31 + next], least, 2 * solution->mode.error_bound + 1e-4);
+    }
+  }
+}
+
+TEST(Solve, ThePapersOwnIterationGivesTheSameTables) {
+  Random random{8};
+  const CostTable costs = random_costs(60, random);
+  const auto v = random_velocities(61, random);
+  SolveConfig config{.alpha = 0.97, .w1 = 0.5, .cap = 1, .free_steps = 3};
+  const auto policy = solve(costs, v, 20, config);
+  config.iterate = true;
+  const auto iterated = solve(costs, v, 20, config);
+  ASSERT_TRUE(policy && iterated);
+  EXPECT_EQ(policy->mode.next, iterated->mode.next);
+  for (std::size_t k = 0; k < policy->values.size(); ++k) {
+    if (std::isfinite(policy->values[k])) {
+      ASSERT_NEAR(policy->values[k], iterated->values[k], policy->mode.error_bound + 1e-5);
+    }
   }
 }
 
