@@ -48,9 +48,9 @@ struct Settings {
   std::string directions = "auto";
   double response_alpha = 0.985;
   double response_cap = 0;  ///< 0: by reachability
-  double cruise_w1 = 0.2;
-  double turn_w1 = 1.5;
-  double change_rate = 0.25;  ///< a second
+  double cruise_w1 = 0.12;
+  double turn_w1 = 0.8;
+  double change_rate = 0.35;  ///< a second
   double speed_weight = 0.3;
   std::string play_through = "off";
   double skip_price = 1;
