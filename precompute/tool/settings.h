@@ -52,7 +52,7 @@ struct Settings {
   double turn_w1 = 0.8;
   double change_rate = 0.35;  ///< a second
   double speed_weight = 0.3;
-  std::string play_through = "off";
+  std::string play_through = "on";
   double skip_price = 1;
   double bend = 15;
   double exit_angle = 25;

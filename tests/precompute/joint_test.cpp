@@ -96,6 +96,7 @@ TEST(Joint, EveryPartCanBeSwitchedOff) {
                         .cap = 10,
                         .change_rate = 0,
                         .speed_weight = 0,
+                        .play_through = false,
                         .bend_deg = 0};
   const auto plain = values(off);
   for (std::size_t l = 0; l < 8; ++l) {  // one weight: both phases are the same table
