@@ -68,11 +68,9 @@ Displacement displacement(const Sprite& sprite, const Actor& actor) noexcept {
   return {d.x + more.x * left_out.duration, d.y + more.y * left_out.duration};
 }
 
-void show_next(const Sprite& sprite, Actor& actor) noexcept {
+// Shows what a table chose, or a near tie of it.
+void show(const Sprite& sprite, Actor& actor, std::uint32_t table, std::uint32_t next) noexcept {
   const ControlMode& mode = mode_of(sprite, actor);
-  const Policy policy = make_policy(sprite, actor.mode);
-  const std::uint32_t table = table_index(policy, actor.group, actor.stage);
-  const std::uint32_t next = next_sample(policy, table, actor.sample);
   const bool natural = sprite.is_natural(actor.sample, next);
   actor.skipped = !natural && mode.plays_through && sprite.is_skip(actor.sample, next) ? 1 : 0;
   actor.jumped = natural ? 0 : 1;
@@ -85,6 +83,68 @@ void show_next(const Sprite& sprite, Actor& actor) noexcept {
   } else if (actor.group >= mode.headings || (mode.arrived[next] >> actor.group & 1u) != 0) {
     actor.stage = 0;
   }
+}
+
+// The transitions out of a sample that cost at most `slack` more than the best, at most sixteen.
+struct NearTies {
+  std::array<std::uint32_t, 16> to;
+  std::size_t count = 0;
+};
+NearTies near_ties(const Sprite& sprite, const ControlMode& mode, std::uint32_t table,
+                   std::uint32_t from, float slack) noexcept {
+  const std::size_t n = sprite.samples().size();
+  const float* go = mode.go.data() + table * n;
+  const std::uint32_t best = mode.next[table * n + from];
+  const auto price = [&](float cost) { return mode.power == 2 ? cost * cost : cost; };
+  const auto price_to = [&](std::uint32_t to, float cost) {
+    if (sprite.is_natural(from, to)) return 0.0f;
+    const bool skips = mode.plays_through && sprite.is_skip(from, to);
+    return price(skips ? mode.skip_price * sprite.samples()[from].skip_cost : cost);
+  };
+  const float limit = price_to(best, sprite.transition_cost(from, best)) + go[best] + slack;
+  NearTies ties{{best}, 1};
+  for (const Transition& t : sprite.transitions(from)) {
+    if (t.to == best || ties.count == ties.to.size() || t.cost > mode.cap) continue;
+    if (price_to(t.to, t.cost) + go[t.to] <= limit) ties.to[ties.count++] = t.to;
+  }
+  return ties;
+}
+
+// Where the actor would be ten samples after it was led to `to`.
+Vec2 ahead_of(const Sprite& sprite, const Actor& actor, std::uint32_t table,
+              std::uint32_t to) noexcept {
+  constexpr int kAhead = 10;
+  const Policy policy = make_policy(sprite, actor.mode);
+  Position position = actor.position;
+  for (int k = 0; k < kAhead; ++k) {
+    const Sample& s = sprite.samples()[to];
+    position.x = moved(position.x, std::int64_t{s.step_x} * s.duration);
+    position.y = moved(position.y, std::int64_t{s.step_y} * s.duration);
+    to = next_sample(policy, table, to);
+  }
+  return to_pixels(position);
+}
+
+// SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t draw(std::uint64_t& state) noexcept {
+  std::uint64_t z = (state += 0x9E3779B97F4A7C15u);
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
+std::uint32_t choose(const Sprite& sprite, Actor& actor, std::uint32_t table,
+                     const StepWish& wish) noexcept {
+  const NearTies ties = near_ties(sprite, mode_of(sprite, actor), table, actor.sample, wish.slack);
+  if (ties.count == 1) return ties.to[0];
+  if (wish.clearance == nullptr) return ties.to[draw(actor.random) % ties.count];
+  std::uint32_t widest = ties.to[0];
+  float room = wish.clearance(wish.world, ahead_of(sprite, actor, table, widest));
+  for (std::size_t k = 1; k < ties.count; ++k) {
+    const float there = wish.clearance(wish.world, ahead_of(sprite, actor, table, ties.to[k]));
+    if (there > room) widest = ties.to[k], room = there;
+  }
+  return widest;
 }
 
 void command(const Sprite& sprite, Actor& actor, Direction direction,
@@ -166,16 +226,36 @@ void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_ra
               {static_cast<float>(dx / distance), static_cast<float>(dy / distance)});
 }
 
-void step(const Sprite& sprite, Actor& actor) noexcept {
+namespace {
+
+// Moves, and tells whether the shown sample is over.
+bool advance(const Sprite& sprite, Actor& actor) noexcept {
   const Displacement by = displacement(sprite, actor);
   ++actor.tick;
   actor.position.x = moved(actor.position.x, by.x);
   actor.position.y = moved(actor.position.y, by.y);
-  if (actor.shown < sprite.data().samples[actor.sample].duration) {
-    ++actor.shown;
-    actor.jumped = actor.skipped = 0;
-  } else {
-    show_next(sprite, actor);
+  if (actor.shown >= sprite.data().samples[actor.sample].duration) return true;
+  ++actor.shown;
+  actor.jumped = actor.skipped = 0;
+  return false;
+}
+
+}  // namespace
+
+void step(const Sprite& sprite, Actor& actor) noexcept {
+  if (advance(sprite, actor)) {
+    const Policy policy = make_policy(sprite, actor.mode);
+    const std::uint32_t table = table_index(policy, actor.group, actor.stage);
+    show(sprite, actor, table, next_sample(policy, table, actor.sample));
+  }
+  actor.bent = actor.group;
+}
+
+void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept {
+  if (advance(sprite, actor)) {
+    const Policy policy = make_policy(sprite, actor.mode);
+    const std::uint32_t table = table_index(policy, actor.group, actor.stage);
+    show(sprite, actor, table, choose(sprite, actor, table, wish));
   }
   actor.bent = actor.group;
 }

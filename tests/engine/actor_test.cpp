@@ -203,6 +203,43 @@ TEST(Actor, AStickChoosesTheNearestServedHeadingAndDoesNotDither) {
   EXPECT_EQ(actor.direction, Direction::None);
 }
 
+TEST(Actor, NearTiesAreDrawnFromTheSeedAndKeepTheCommand) {
+  const Sprite sprite = testing::tiny_sprite();
+  const StepWish wish{.slack = 0.35f};
+  const auto run = [&](std::uint64_t seed) {
+    Actor actor = make_actor(sprite, {}, seed);
+    set_direction(sprite, actor, Direction::Down);
+    StateHash hash;
+    for (int tick = 0; tick < 600; ++tick) {
+      const std::uint32_t before = actor.sample;
+      step(sprite, actor, wish);
+      EXPECT_TRUE(actor.shown > 1 || std::isfinite(sprite.transition_cost(before, actor.sample)));
+      hash.add(actor);
+    }
+    const Vec2 at = to_pixels(actor.position);
+    EXPECT_GT(at.y, 700);
+    EXPECT_LT(std::fabs(at.x), 300);
+    return hash.digest();
+  };
+  EXPECT_EQ(run(1), run(1));
+  EXPECT_NE(run(1), run(2));
+  Actor plain = make_actor(sprite), none = plain;
+  for (int tick = 0; tick < 300; ++tick) {
+    step(sprite, plain);
+    step(sprite, none, StepWish{});
+    ASSERT_EQ(std::memcmp(&plain, &none, sizeof plain), 0) << "no slack, no difference";
+  }
+}
+
+TEST(Actor, OfNearTiesTheOneWithMostRoomIsTaken) {
+  const Sprite sprite = testing::tiny_sprite();
+  // No command: every heading is as good as another. The wall lies to the right.
+  const StepWish wish{.slack = 1, .clearance = [](const void*, Vec2 p) { return -p.x; }};
+  Actor actor = make_actor(sprite);
+  for (int tick = 0; tick < 200; ++tick) step(sprite, actor, wish);
+  EXPECT_LT(to_pixels(actor.position).x, -100);
+}
+
 TEST(Actor, JumpedTellsEveryTransitionThatIsNotTheFilmsOwn) {
   const Sprite sprite = testing::tiny_sprite();
   Actor actor = make_actor(sprite);

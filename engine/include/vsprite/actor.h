@@ -71,6 +71,21 @@ void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_ra
 /// One tick. Never fails, allocates, locks or logs. O(1).
 void step(const Sprite& sprite, Actor& actor) noexcept;
 
+/// What a game may ask of a tick beyond the command: among transitions that are nearly as good as
+/// the best one, another.
+struct StepWish {
+  /// How much dearer counts as nearly as good, in transition costs (1 = the classifier's
+  /// threshold).
+  float slack = 0;
+  /// Room around a position, in any unit: of the near ties the one that leads, ten samples on, to
+  /// the most room is taken. Null: one is drawn from Actor::random, so that a school does not move
+  /// in lockstep; the same seed gives the same states.
+  float (*clearance)(const void* world, Vec2 position) = nullptr;
+  const void* world = nullptr;  ///< handed to `clearance`
+};
+/// One tick, as above. Cost: one row of transitions where a sample ends. Never allocates.
+void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept;
+
 /// Where to draw between two ticks: `fraction` in [0, 1) of a tick after the last step, px.
 Vec2 draw_position(const Sprite& sprite, const Actor& actor, float fraction) noexcept;
 
