@@ -135,7 +135,7 @@ double choose_cap(const CostTable& costs, const Motion& motion,
   const Reach whole = at(20);
   for (int twentieths = 6; twentieths < 20; ++twentieths) {
     const Reach reach = at(twentieths);
-    if (reach.connected >= 0.95 * whole.connected && reach.floor <= 1.5 * whole.floor + 1)
+    if (reach.connected >= 0.95 * whole.connected && reach.floor <= 1.5 * whole.floor)
       return reach.cap;
   }
   return whole.cap;

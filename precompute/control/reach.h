@@ -30,8 +30,7 @@ Reach measure_reach(const CostTable& costs, const Motion& motion,
                     double cap, bool play_through);
 
 /// The lowest cap of 0.3, 0.35 .. 1 at which 95 % of the moving samples that are connected at 1
-/// still are, and the floor is at most 1.5 times that at 1 (and a frame, for films so quick that
-/// the ratio means nothing).
+/// still are, and the floor is at most 1.5 times that at 1.
 double choose_cap(const CostTable& costs, const Motion& motion,
                   std::span<const std::uint16_t> durations, std::uint32_t served, int headings,
                   bool play_through);
