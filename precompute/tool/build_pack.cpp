@@ -110,9 +110,11 @@ std::string unserved_reason(const SpriteData& data, const DirectionReport& repor
   const Vec2 unit = unit_vector(report.direction);
   const double least = measure_speeds(data.samples).moving;
   int moving = 0, toward = 0, kept = 0;
+  double fastest = 0;
   for (const Sample& sample : data.samples) {
     const double speed = std::sqrt(double{sample.velocity.x} * sample.velocity.x +
                                    double{sample.velocity.y} * sample.velocity.y);
+    fastest = std::max(fastest, speed);
     if (speed <= least) continue;
     ++moving;
     const double along =
@@ -125,11 +127,17 @@ std::string unserved_reason(const SpriteData& data, const DirectionReport& repor
   const auto frames = [](int n) {
     return std::to_string(n) + (n == 1 ? " sample moves" : " samples move");
   };
-  if (moving == 0) return "nothing in the film moves from its place";
+  const auto whole = [](double speed) { return std::to_string(std::lround(speed)); };
+  if (moving == 0)
+    return "it only sways: " + whole(fastest) + " px/s at most, and " + whole(least) +
+           " count as moving";
   if (toward == 0) return "the film never moves " + way + ": film some seconds of it";
   if (kept == 0)
     return frames(toward) +
            " that way, but no smooth jump leads to them and back: film more ways in and out";
+  if (report.speed < least)
+    return frames(kept) + " that way, but none for long: it only sways, and gets on at " +
+           whole(report.speed) + " px/s where " + whole(least) + " count as moving";
   return frames(kept) +
          " that way, but no run of them keeps to it: film more of it, with turns into it and out "
          "of it";

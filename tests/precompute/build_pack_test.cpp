@@ -89,12 +89,16 @@ TEST(BuildPack, AnUnservedDirectionSaysWhy) {
   DirectionReport right, down;
   down.direction = Direction::Down;
   EXPECT_NE(unserved_reason(*data, down).find("never moves down"), std::string::npos);
-  EXPECT_NE(unserved_reason(*data, right).find("3 samples move that way"), std::string::npos);
+  EXPECT_NE(unserved_reason(*data, right).find("3 samples move that way, but none for long"),
+            std::string::npos);
+  right.speed = 30;
+  EXPECT_NE(unserved_reason(*data, right).find("no run of them keeps to it"), std::string::npos);
   for (Sample& sample : data->samples) sample.kept = 0;
   EXPECT_NE(unserved_reason(*data, right).find("no smooth jump leads to them"), std::string::npos);
   // 34 px/s is a sway for a subject of 400 px: a tenth of its size a second.
   for (Sample& sample : data->samples) sample.area = 160000;
-  EXPECT_EQ(unserved_reason(*data, right), "nothing in the film moves from its place");
+  EXPECT_EQ(unserved_reason(*data, right),
+            "it only sways: 34 px/s at most, and 100 count as moving");
   right.reachable = true;
   EXPECT_EQ(unserved_reason(*data, right), "");
 }
