@@ -12,23 +12,30 @@
 namespace vsprite {
 namespace {
 
+// Arguments: actors, mode (0 paper, 1 responsive), and whether near ties are weighed.
 void BM_Step(benchmark::State& state) {
   const Sprite sprite = testing::tiny_sprite();
-  std::vector<Actor> actors(static_cast<std::size_t>(state.range(0)), make_actor(sprite));
+  std::vector<Actor> actors(static_cast<std::size_t>(state.range(0)),
+                            make_actor(sprite, {}, 1, static_cast<int>(state.range(1))));
+  const StepWish wish{.slack = 0.1f};
   std::uint32_t tick = 0;
   for (auto _ : state) {
     for (std::size_t i = 0; i < actors.size(); ++i) {
       if ((tick + i) % 20 == 0) {
         set_direction(sprite, actors[i], static_cast<Direction>((tick / 20 + i) % 10));
       }
-      step(sprite, actors[i]);
+      if (state.range(2) != 0) {
+        step(sprite, actors[i], wish);
+      } else {
+        step(sprite, actors[i]);
+      }
     }
     ++tick;
     benchmark::ClobberMemory();
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
-BENCHMARK(BM_Step)->Arg(1)->Arg(1000)->Arg(100000);
+BENCHMARK(BM_Step)->ArgsProduct({{1, 1000, 100000}, {0, 1}, {0}})->Args({1000, 1, 1});
 
 void BM_DrawSprite(benchmark::State& state) {
   Image canvas = make_checkerboard(128, 128);

@@ -7,6 +7,7 @@
 #define XXH_STATIC_LINKING_ONLY  // the size of the streaming state
 #include <xxhash.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
@@ -20,26 +21,144 @@ const ControlMode& mode_of(const Sprite& sprite, const Actor& actor) noexcept {
   return sprite.data().modes[actor.mode];
 }
 
-Direction followed(const ControlMode& mode, Direction command) noexcept {
-  return mode.table_of[static_cast<std::size_t>(command)];
+std::uint32_t followed(const ControlMode& mode, Direction command) noexcept {
+  return group_of(mode, mode.table_of[static_cast<std::size_t>(command)]);
 }
 
 // Wraps instead of overflowing, which a hostile pack could reach after some billion ticks.
-std::int64_t moved(std::int64_t position, std::int32_t step) noexcept {
+std::int64_t moved(std::int64_t position, std::int64_t by) noexcept {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(position) +
-                                   static_cast<std::uint64_t>(std::int64_t{step}));
+                                   static_cast<std::uint64_t>(by));
 }
 
-void show_next(const Sprite& sprite, Actor& actor) noexcept {
-  const Policy policy = make_policy(sprite, actor.mode);
-  const Direction direction = followed(mode_of(sprite, actor), actor.direction);
-  const std::uint32_t table = table_index(policy, direction, actor.stage);
-  const std::uint32_t next = next_sample(policy, table, actor.sample);
-  actor.jumped = sprite.is_natural(actor.sample, next) ? 0 : 1;
+struct Displacement {
+  std::int64_t x = 0, y = 0;
+};
+
+// The step (x, y) turned towards the unit vector u, but not by more than the mode's bend, at the
+// same length. Whole numbers throughout: |u| = 2^30, so products stay below 2^63.
+Displacement bend(const Sample& sample, UnitVector u, const ControlMode& mode) noexcept {
+  const std::int64_t x = sample.step_x, y = sample.step_y;
+  constexpr std::int64_t kHalf = kUnitOne / 2;
+  const std::int64_t along = (x * u.x + y * u.y) >> 30, across = (x * u.y - y * u.x) >> 30;
+  const std::int64_t off = across < 0 ? -across : across;
+  if (along > 0 && off * mode.bend_cos <= along * mode.bend_sin) {
+    const std::int64_t length = sample.step_length;
+    return {(length * u.x + kHalf) >> 30, (length * u.y + kHalf) >> 30};
+  }
+  const std::int64_t c = mode.bend_cos, s = across < 0 ? -mode.bend_sin : mode.bend_sin;
+  return {(x * c - y * s + kHalf) >> 30, (x * s + y * c + kHalf) >> 30};
+}
+
+// What a tick moves: the step of the shown sample, and in the first tick after a sample was left
+// out, all of that one's.
+Displacement displacement(const Sprite& sprite, const Actor& actor) noexcept {
+  const auto& samples = sprite.data().samples;
+  const ControlMode& mode = mode_of(sprite, actor);
+  const bool bends = mode.bend_sin != 0 && actor.bent < mode.headings;
+  const UnitVector u =
+      bends ? heading_vector(actor.bent * (kMaxHeadings / mode.headings)) : UnitVector{};
+  const auto step_of = [&](const Sample& s) -> Displacement {
+    return bends ? bend(s, u, mode) : Displacement{s.step_x, s.step_y};
+  };
+  Displacement d = step_of(samples[actor.sample]);
+  if (actor.skipped == 0) return d;
+  const Sample& left_out = samples[actor.sample - 1];
+  const Displacement more = step_of(left_out);
+  return {d.x + more.x * left_out.duration, d.y + more.y * left_out.duration};
+}
+
+// Shows what a table chose, or a near tie of it.
+void show(const Sprite& sprite, Actor& actor, std::uint32_t table, std::uint32_t next) noexcept {
+  const ControlMode& mode = mode_of(sprite, actor);
+  const bool natural = sprite.is_natural(actor.sample, next);
+  actor.skipped = !natural && mode.plays_through && sprite.is_skip(actor.sample, next) ? 1 : 0;
+  actor.jumped = natural ? 0 : 1;
   actor.sample = next;
   actor.shown = 1;
   actor.table = static_cast<std::uint8_t>(table);
-  if (actor.stage > 0) --actor.stage;
+  if (actor.stage == 0) return;
+  if (!mode.by_state) {
+    --actor.stage;
+  } else if (actor.group >= mode.headings || (mode.arrived[next] >> actor.group & 1u) != 0) {
+    actor.stage = 0;
+  }
+}
+
+// The transitions out of a sample that cost at most `slack` more than the best, at most sixteen.
+struct NearTies {
+  std::array<std::uint32_t, 16> to;
+  std::size_t count = 0;
+};
+NearTies near_ties(const Sprite& sprite, const ControlMode& mode, std::uint32_t table,
+                   std::uint32_t from, float slack) noexcept {
+  const std::size_t n = sprite.samples().size();
+  const float* go = mode.go.data() + table * n;
+  const std::uint32_t best = mode.next[table * n + from];
+  const auto price = [&](float cost) { return mode.power == 2 ? cost * cost : cost; };
+  const auto price_to = [&](std::uint32_t to, float cost) {
+    if (sprite.is_natural(from, to)) return 0.0f;
+    const bool skips = mode.plays_through && sprite.is_skip(from, to);
+    return price(skips ? mode.skip_price * sprite.samples()[from].skip_cost : cost);
+  };
+  const float limit = price_to(best, sprite.transition_cost(from, best)) + go[best] + slack;
+  NearTies ties{{best}, 1};
+  for (const Transition& t : sprite.transitions(from)) {
+    if (t.to == best || ties.count == ties.to.size() || t.cost > mode.cap) continue;
+    if (price_to(t.to, t.cost) + go[t.to] <= limit) ties.to[ties.count++] = t.to;
+  }
+  return ties;
+}
+
+// Where the actor would be ten samples after it was led to `to`.
+Vec2 ahead_of(const Sprite& sprite, const Actor& actor, std::uint32_t table,
+              std::uint32_t to) noexcept {
+  constexpr int kAhead = 10;
+  const Policy policy = make_policy(sprite, actor.mode);
+  Position position = actor.position;
+  for (int k = 0; k < kAhead; ++k) {
+    const Sample& s = sprite.samples()[to];
+    position.x = moved(position.x, std::int64_t{s.step_x} * s.duration);
+    position.y = moved(position.y, std::int64_t{s.step_y} * s.duration);
+    to = next_sample(policy, table, to);
+  }
+  return to_pixels(position);
+}
+
+// SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t draw(std::uint64_t& state) noexcept {
+  std::uint64_t z = (state += 0x9E3779B97F4A7C15u);
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return z ^ (z >> 31);
+}
+
+std::uint32_t choose(const Sprite& sprite, Actor& actor, std::uint32_t table,
+                     const StepWish& wish) noexcept {
+  const NearTies ties = near_ties(sprite, mode_of(sprite, actor), table, actor.sample, wish.slack);
+  if (ties.count == 1) return ties.to[0];
+  if (wish.clearance == nullptr) return ties.to[draw(actor.random) % ties.count];
+  std::uint32_t widest = ties.to[0];
+  float room = wish.clearance(wish.world, ahead_of(sprite, actor, table, widest));
+  for (std::size_t k = 1; k < ties.count; ++k) {
+    const float there = wish.clearance(wish.world, ahead_of(sprite, actor, table, ties.to[k]));
+    if (there > room) widest = ties.to[k], room = there;
+  }
+  return widest;
+}
+
+void command(const Sprite& sprite, Actor& actor, Direction direction,
+             std::uint32_t group) noexcept {
+  actor.direction = direction;
+  if (group == actor.group) return;
+  actor.group = static_cast<std::uint8_t>(group);
+  actor.stage = static_cast<std::uint8_t>(mode_of(sprite, actor).stages - 1);
+}
+
+// The cosine of the angle between a heading and (x, y) of length 1.
+double cosine_to(const ControlMode& mode, std::uint32_t heading, double x, double y) noexcept {
+  const UnitVector u = heading_vector(heading * (kMaxHeadings / mode.headings));
+  return (u.x * x + u.y * y) / kUnitOne;
 }
 
 }  // namespace
@@ -52,23 +171,48 @@ Actor make_actor(const Sprite& sprite, Vec2 position, std::uint64_t seed, int mo
   actor.shown = 1;
   actor.mode = static_cast<std::uint8_t>(mode);
   const Policy policy = make_policy(sprite, mode);
-  const Direction none = followed(mode_of(sprite, actor), Direction::None);
+  const std::uint32_t none = followed(mode_of(sprite, actor), Direction::None);
+  actor.group = actor.bent = static_cast<std::uint8_t>(none);
   actor.table = static_cast<std::uint8_t>(table_index(policy, none, 0));
   return actor;
 }
 
 void set_direction(const Sprite& sprite, Actor& actor, Direction direction) noexcept {
   if (direction == actor.direction) return;
+  command(sprite, actor, direction, followed(mode_of(sprite, actor), direction));
+}
+
+void set_heading(const Sprite& sprite, Actor& actor, Vec2 toward) noexcept {
   const ControlMode& mode = mode_of(sprite, actor);
-  const bool same_tables = followed(mode, direction) == followed(mode, actor.direction);
-  actor.direction = direction;
-  if (!same_tables) actor.stage = static_cast<std::uint8_t>(mode.stages - 1);
+  const double tx = static_cast<double>(toward.x), ty = static_cast<double>(toward.y);
+  const double length = std::sqrt(tx * tx + ty * ty);
+  if (!(length > 0) || !std::isfinite(length)) {
+    return set_direction(sprite, actor, Direction::None);
+  }
+  std::uint32_t best = mode.headings;
+  double best_cosine = 0.5;  // 60 degrees
+  for (std::uint32_t h = 0; h < mode.headings; ++h) {
+    if ((mode.served_headings >> h & 1u) == 0) continue;
+    const double cosine = cosine_to(mode, h, tx / length, ty / length);
+    if (cosine >= best_cosine) best = h, best_cosine = cosine;
+  }
+  if (best == mode.headings) return set_direction(sprite, actor, Direction::Rest);
+  if (actor.group < mode.headings && (mode.served_headings >> actor.group & 1u) != 0) {
+    // Kept unless the best is nearer by a third of the distance between two headings, so that a
+    // trembling hand at the border of two does not make it dither.
+    const double c = mode.headings == 8    ? 0.96592582628906829   // cos 15 degrees
+                     : mode.headings == 16 ? 0.99144486137381041   // cos 7.5 degrees
+                                           : 0.99785892323860351;  // cos 3.75 degrees
+    const double s = std::sqrt(1 - c * c);
+    const double best_sine = std::sqrt(std::max(0.0, 1 - best_cosine * best_cosine));
+    const double limit = best_cosine * c - best_sine * s;  // cos(angle to the best + margin)
+    if (cosine_to(mode, actor.group, tx / length, ty / length) >= limit) best = actor.group;
+  }
+  command(sprite, actor, direction_of(mode, best), best);
 }
 
 void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_radius) noexcept {
-  // A sector is 22.5 degrees to either side; the one in force is left only beyond 30, and an actor
-  // that has arrived starts again only beyond 1.5 radii, so that neither border makes it dither.
-  constexpr double kCosLeave = 0.86602540378443865;
+  // An actor that has arrived starts again only beyond 1.5 radii, so that it does not dither.
   constexpr double kLeaveRadius = 1.5;
   const double dx =
       static_cast<double>(target.x) - static_cast<double>(actor.position.x) / kFixedOne;
@@ -76,34 +220,52 @@ void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_ra
       static_cast<double>(target.y) - static_cast<double>(actor.position.y) / kFixedOne;
   const double distance = std::sqrt(dx * dx + dy * dy);
   const bool resting = actor.direction == Direction::Rest;
-  const double radius = arrive_radius * (resting ? kLeaveRadius : 1.0);
+  const double radius = static_cast<double>(arrive_radius) * (resting ? kLeaveRadius : 1.0);
   if (!(distance > radius)) return set_direction(sprite, actor, Direction::Rest);
-  const Vec2 unit = unit_vector(actor.direction);
-  if (unit.x * dx + unit.y * dy >= kCosLeave * distance) return;
-  set_direction(
-      sprite, actor,
-      nearest_direction({static_cast<float>(dx / distance), static_cast<float>(dy / distance)}));
+  set_heading(sprite, actor,
+              {static_cast<float>(dx / distance), static_cast<float>(dy / distance)});
 }
 
-void step(const Sprite& sprite, Actor& actor) noexcept {
-  const Sample& sample = sprite.data().samples[actor.sample];
+namespace {
+
+// Moves, and tells whether the shown sample is over.
+bool advance(const Sprite& sprite, Actor& actor) noexcept {
+  const Displacement by = displacement(sprite, actor);
   ++actor.tick;
-  actor.position.x = moved(actor.position.x, sample.step_x);
-  actor.position.y = moved(actor.position.y, sample.step_y);
-  if (actor.shown < sample.duration) {
-    ++actor.shown;
-    actor.jumped = 0;
-  } else {
-    show_next(sprite, actor);
+  actor.position.x = moved(actor.position.x, by.x);
+  actor.position.y = moved(actor.position.y, by.y);
+  if (actor.shown >= sprite.data().samples[actor.sample].duration) return true;
+  ++actor.shown;
+  actor.jumped = actor.skipped = 0;
+  return false;
+}
+
+}  // namespace
+
+void step(const Sprite& sprite, Actor& actor) noexcept {
+  if (advance(sprite, actor)) {
+    const Policy policy = make_policy(sprite, actor.mode);
+    const std::uint32_t table = table_index(policy, actor.group, actor.stage);
+    show(sprite, actor, table, next_sample(policy, table, actor.sample));
   }
+  actor.bent = actor.group;
+}
+
+void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept {
+  if (advance(sprite, actor)) {
+    const Policy policy = make_policy(sprite, actor.mode);
+    const std::uint32_t table = table_index(policy, actor.group, actor.stage);
+    show(sprite, actor, table, choose(sprite, actor, table, wish));
+  }
+  actor.bent = actor.group;
 }
 
 Vec2 draw_position(const Sprite& sprite, const Actor& actor, float fraction) noexcept {
-  const Sample& sample = sprite.data().samples[actor.sample];
-  const double x =
-      static_cast<double>(actor.position.x) + static_cast<double>(fraction) * sample.step_x;
-  const double y =
-      static_cast<double>(actor.position.y) + static_cast<double>(fraction) * sample.step_y;
+  const Displacement by = displacement(sprite, actor);
+  const double x = static_cast<double>(actor.position.x) +
+                   static_cast<double>(fraction) * static_cast<double>(by.x);
+  const double y = static_cast<double>(actor.position.y) +
+                   static_cast<double>(fraction) * static_cast<double>(by.y);
   return {static_cast<float>(x / kFixedOne), static_cast<float>(y / kFixedOne)};
 }
 

@@ -28,9 +28,12 @@ inline constexpr std::size_t kHeaderBytes = 64;
 inline constexpr std::size_t kEntryBytes = 32;
 inline constexpr std::size_t kAlignment = 64;
 inline constexpr std::size_t kMetaBytes = 32;  ///< before the texts
-inline constexpr std::size_t kSampleBytes = 56;
+inline constexpr std::size_t kSampleBytes = 60;
 inline constexpr std::size_t kFrameBytes = 24;
-inline constexpr std::size_t kModeBytes = 64;  ///< before the name
+inline constexpr std::size_t kModeBytes = 128;  ///< before the name
+
+// Flags of a CTRL section.
+inline constexpr unsigned kByState = 1, kPlaysThrough = 2;
 
 inline constexpr std::uint64_t kMaxFileBytes = std::uint64_t{8} << 30;
 inline constexpr std::uint32_t kMaxSections = 64;
@@ -39,7 +42,7 @@ inline constexpr std::uint32_t kMaxTransitions = 1u << 30;
 inline constexpr std::uint32_t kMaxTags = 4096;
 inline constexpr std::uint32_t kMaxText = 255;
 inline constexpr std::uint32_t kMaxModes = 16;
-inline constexpr std::uint32_t kMaxStages = 25;  ///< a table index fits in a byte
+inline constexpr std::uint32_t kMaxTables = 256;  ///< a table index fits in a byte
 inline constexpr std::uint32_t kMaxPixels = 1u << 24;
 
 /// A PackIssue together with the code under which load_pack reports it.
@@ -55,6 +58,8 @@ Finding finding(std::string_view code, std::string_view section, std::uint64_t o
 /// Meaning, not bytes: every index, order and range that playing relies on. The section and the
 /// offset of the finding name the section of a pack; offset is 0.
 Check check_sprite_data(const SpriteData& data);
+/// What is not in a file but follows from it.
+void complete(SpriteData& data) noexcept;
 /// What a pack asks for beyond that: a picture for every kept sample.
 Check check_picture_sizes(const SpriteData& data);
 

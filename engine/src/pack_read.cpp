@@ -251,6 +251,7 @@ Check read_samples(const Section& section, SpriteData& data, std::uint32_t count
     s.frame = cursor.get<std::uint32_t>();
     s.mirror_of = cursor.get<std::uint32_t>();
     s.kept = cursor.get<std::uint32_t>();
+    s.skip_cost = cursor.get<float>();
   }
   return {};
 }
@@ -277,6 +278,18 @@ Check read_transitions(const Section& section, SpriteData& data) {
   return {};
 }
 
+// The counts on which the size of the tables depends.
+Check check_table_count(const ControlMode& mode, const Section& section) {
+  if (mode.headings != 8 && mode.headings != 16 && mode.headings != 32) {
+    return finding("headings", "CTRL", section.offset + 52,
+                   number(mode.headings) + " headings, 8, 16 or 32 are due");
+  }
+  if (mode.stages >= 1 && mode.stages <= kMaxTables && mode.tables() <= kMaxTables) return {};
+  return finding("stages", "CTRL", section.offset + 12,
+                 number(mode.stages) + " stages of " + number(mode.headings) + " headings, 1 to " +
+                     number(kMaxTables / (mode.headings + 2)) + " are due");
+}
+
 Check read_mode(const Section& section, SpriteData& data) {
   if (section.bytes.size() < kModeBytes) {
     return section.wrong_size("ctrl-size", "fixed fields", kModeBytes);
@@ -292,9 +305,27 @@ Check read_mode(const Section& section, SpriteData& data) {
   mode.served = cursor.get<std::uint32_t>();
   const auto name_bytes = cursor.get<std::uint32_t>();
   for (Direction& d : mode.table_of) d = static_cast<Direction>(cursor.get<std::uint8_t>());
-  for (std::uint8_t zero : cursor.take(kModeBytes - 50)) {
+  const auto flags = cursor.get<std::uint8_t>();
+  mode.by_state = (flags & kByState) != 0;
+  mode.plays_through = (flags & kPlaysThrough) != 0;
+  if ((flags & ~(kByState | kPlaysThrough)) != 0) {
+    return finding("switching", "CTRL", section.offset + 50,
+                   "flags " + number(flags) + ", at most 3 is due");
+  }
+  mode.power = cursor.get<std::uint8_t>();
+  mode.headings = cursor.get<std::uint32_t>();
+  mode.served_headings = cursor.get<std::uint32_t>();
+  mode.turn_w1 = cursor.get<float>();
+  mode.change_rate = cursor.get<float>();
+  mode.speed_weight = cursor.get<float>();
+  mode.skip_price = cursor.get<float>();
+  mode.exit_angle = cursor.get<float>();
+  mode.dead_angle = cursor.get<float>();
+  mode.bend_cos = cursor.get<std::int32_t>();
+  mode.bend_sin = cursor.get<std::int32_t>();
+  for (std::uint8_t zero : cursor.take(kModeBytes - 92)) {
     if (zero != 0)
-      return finding("reserved", "CTRL", section.offset + 50, "reserved bytes are not 0");
+      return finding("reserved", "CTRL", section.offset + 92, "reserved bytes are not 0");
   }
   const std::uint64_t padded = (std::uint64_t{name_bytes} + 3) / 4 * 4;
   if (name_bytes > kMaxText || padded > cursor.left()) {
@@ -307,15 +338,20 @@ Check read_mode(const Section& section, SpriteData& data) {
   if (std::any_of(name.begin() + name_bytes, name.end(), [](auto c) { return c != 0; })) {
     return finding("padding", "CTRL", section.offset + kModeBytes, "padding of the name is not 0");
   }
-  const std::uint64_t entries =
-      std::uint64_t{kDirectionCount} * std::min(mode.stages, kMaxStages + 1) * data.samples.size();
-  if (cursor.left() != entries * 4) {
+  if (Check bad = check_table_count(mode, section)) return bad;
+  const std::uint64_t n = data.samples.size(), entries = mode.tables() * n;
+  const std::uint64_t due = 4 * (2 * entries + (mode.by_state ? n : 0));
+  if (cursor.left() != due) {
     return finding("ctrl-size", "CTRL", section.offset,
-                   number(entries) + " entries of next need " + number(entries * 4) + " bytes, " +
+                   number(mode.tables()) + " tables need " + number(due) + " bytes, " +
                        number(cursor.left()) + " are there");
   }
   mode.next.resize(entries);
+  mode.go.resize(entries);
+  mode.arrived.resize(mode.by_state ? n : 0);
   for (std::uint32_t& next : mode.next) next = cursor.get<std::uint32_t>();
+  for (float& go : mode.go) go = cursor.get<float>();
+  for (std::uint32_t& arrived : mode.arrived) arrived = cursor.get<std::uint32_t>();
   data.modes.push_back(std::move(mode));
   return {};
 }

@@ -52,6 +52,7 @@ Bytes sample_bytes(const SpriteData& data) {
     out.put(s.frame);
     out.put(s.mirror_of);
     out.put(s.kept);
+    out.put(s.skip_cost);
   }
   return out;
 }
@@ -70,7 +71,8 @@ Bytes transition_bytes(const SpriteData& data) {
 
 Bytes mode_bytes(const ControlMode& mode) {
   Bytes out;
-  out.data.reserve(kModeBytes + mode.name.size() + 4 + 4 * mode.next.size());
+  out.data.reserve(kModeBytes + mode.name.size() + 4 +
+                   4 * (mode.next.size() + mode.go.size() + mode.arrived.size()));
   out.put(mode.alpha);
   out.put(mode.w1);
   out.put(mode.cap);
@@ -80,10 +82,25 @@ Bytes mode_bytes(const ControlMode& mode) {
   out.put(mode.served);
   out.put(static_cast<std::uint32_t>(mode.name.size()));
   for (Direction d : mode.table_of) out.put(static_cast<std::uint8_t>(d));
+  out.put(static_cast<std::uint8_t>((mode.by_state ? kByState : 0) |
+                                    (mode.plays_through ? kPlaysThrough : 0)));
+  out.put(static_cast<std::uint8_t>(mode.power));
+  out.put(mode.headings);
+  out.put(mode.served_headings);
+  out.put(mode.turn_w1);
+  out.put(mode.change_rate);
+  out.put(mode.speed_weight);
+  out.put(mode.skip_price);
+  out.put(mode.exit_angle);
+  out.put(mode.dead_angle);
+  out.put(mode.bend_cos);
+  out.put(mode.bend_sin);
   out.pad_to(kModeBytes);
   out.text(mode.name);
   out.pad_to(4);
   for (std::uint32_t next : mode.next) out.put(next);
+  for (float go : mode.go) out.put(go);
+  for (std::uint32_t arrived : mode.arrived) out.put(arrived);
   return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -17,6 +18,10 @@ namespace {
 
 bool is_natural(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
   return to == from + 1 && data.samples[to].clip == data.samples[from].clip;
+}
+
+bool is_skip(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
+  return to == from + 2 && std::isfinite(data.samples[from].skip_cost);
 }
 
 // The CSR entry of a jump, or null.
@@ -99,6 +104,12 @@ Check check_sample(const SpriteData& data, std::size_t i) {
                    number(kMaxPixels) + " pixels are due",
                ErrorCode::LimitExceeded);
   }
+  if (!(s.skip_cost >= 0)) return bad("skip-cost", "the cost of leaving out the next is not >= 0");
+  const bool can_skip = i + 2 < data.samples.size() && data.samples[i + 2].clip == s.clip &&
+                        s.kept != 0 && data.samples[i + 2].kept != 0;
+  if (std::isfinite(s.skip_cost) && !can_skip) {
+    return bad("skip-cost", "the next but one does not belong to the same clip, or was not kept");
+  }
   return {};
 }
 
@@ -153,9 +164,36 @@ Check check_mode_settings(const ControlMode& mode, const std::string& what) {
     return finding("w1", "CTRL", 0, what + "w1 is not a finite number >= 0");
   }
   if (!(mode.cap >= 0)) return finding("cap", "CTRL", 0, what + "cap is not a number >= 0");
-  if (mode.stages < 1 || mode.stages > kMaxStages) {
+  const auto is_number = [](float value) { return std::isfinite(value) && value >= 0; };
+  if (!is_number(mode.turn_w1) || !is_number(mode.speed_weight) || !is_number(mode.skip_price) ||
+      !is_number(mode.exit_angle) || !is_number(mode.dead_angle) ||
+      !(mode.change_rate >= 0 && mode.change_rate < 1)) {
+    return finding("mode-setting", "CTRL", 0, what + "a setting is not a finite number >= 0");
+  }
+  if (mode.power != 1 && mode.power != 2) {
+    return finding("power", "CTRL", 0, what + "power " + number(mode.power) + ", 1 or 2 is due");
+  }
+  // cos^2 + sin^2 = 1 within the rounding of the two, and less than a right angle.
+  const double cosine = mode.bend_cos, sine = mode.bend_sin, one = kUnitOne;
+  if (!(cosine > 0 && sine >= 0 &&
+        std::fabs(cosine * cosine + sine * sine - one * one) < 4 * one)) {
+    return finding("bend", "CTRL", 0, what + "bend is not a cosine and a sine");
+  }
+  if (mode.headings != 8 && mode.headings != 16 && mode.headings != 32) {
+    return finding("headings", "CTRL", 0,
+                   what + number(mode.headings) + " headings, 8, 16 or 32 are due");
+  }
+  if (mode.stages < 1 || mode.stages > kMaxTables || mode.tables() > kMaxTables) {
     return finding("stages", "CTRL", 0,
-                   what + number(mode.stages) + " stages, 1 to " + number(kMaxStages) + " are due");
+                   what + number(mode.stages) + " stages of " + number(mode.headings) +
+                       " headings, 1 to " + number(kMaxTables / (mode.headings + 2)) + " are due");
+  }
+  if (mode.by_state && mode.stages != 2) {
+    return finding("switching", "CTRL", 0,
+                   what + number(mode.stages) + " stages that are left by state, 2 are due");
+  }
+  if (mode.headings < kMaxHeadings && mode.served_headings >> mode.headings != 0) {
+    return finding("served", "CTRL", 0, what + "serves headings beyond the last");
   }
   for (Direction d : mode.table_of) {
     if (static_cast<int>(d) >= kDirectionCount) {
@@ -178,10 +216,11 @@ Check check_mode_settings(const ControlMode& mode, const std::string& what) {
 // Every kept sample must lead to a kept one along a transition that exists.
 Check check_next(const SpriteData& data, const ControlMode& mode, const std::string& what) {
   const std::size_t n = data.samples.size();
-  if (mode.next.size() != std::size_t{kDirectionCount} * mode.stages * n) {
+  if (mode.next.size() != mode.tables() * n || mode.go.size() != mode.tables() * n ||
+      mode.arrived.size() != (mode.by_state ? n : 0)) {
     return finding("next-size", "CTRL", 0,
                    what + number(mode.next.size()) + " entries of next, " +
-                       number(std::size_t{kDirectionCount} * mode.stages * n) + " are due");
+                       number(mode.tables() * n) + " are due, and as many of go");
   }
   for (std::size_t k = 0; k < mode.next.size(); ++k) {
     const auto from = static_cast<std::uint32_t>(k % n);
@@ -198,10 +237,30 @@ Check check_next(const SpriteData& data, const ControlMode& mode, const std::str
     if (data.samples[to].kept == 0) {
       return bad("next-kept", "next is sample " + number(to) + ", which was not kept");
     }
-    if (!is_natural(data, from, to) && !find_transition(data, from, to)) {
+    const bool skips = mode.plays_through && is_skip(data, from, to);
+    if (!is_natural(data, from, to) && !skips && !find_transition(data, from, to)) {
       return bad("next-transition",
                  "next is sample " + number(to) + ", but there is no such transition");
     }
+  }
+  return {};
+}
+
+// What is compared when a game asks for variety or clearance.
+Check check_go(const SpriteData& data, const ControlMode& mode, const std::string& what) {
+  const std::size_t n = data.samples.size();
+  for (std::size_t k = 0; k < mode.go.size(); ++k) {
+    const bool kept = data.samples[k % n].kept == 1;
+    if (kept ? std::isfinite(mode.go[k]) && mode.go[k] >= 0 : mode.go[k] == 0) continue;
+    return finding("go", "CTRL", 0,
+                   what + "table " + number(k / n) + ", sample " + number(k % n) +
+                       ": the cost to go is not a finite number >= 0, or not 0 for a sample that "
+                       "was not kept");
+  }
+  for (std::size_t i = 0; i < mode.arrived.size(); ++i) {
+    if (mode.headings == kMaxHeadings || mode.arrived[i] >> mode.headings == 0) continue;
+    return finding("arrived", "CTRL", 0,
+                   what + "sample " + number(i) + " goes along a heading beyond the last");
   }
   return {};
 }
@@ -215,6 +274,7 @@ Check check_modes(const SpriteData& data) {
     const std::string what = "mode " + number(m) + ": ";
     if (Check bad = check_mode_settings(data.modes[m], what)) return bad;
     if (Check bad = check_next(data, data.modes[m], what)) return bad;
+    if (Check bad = check_go(data, data.modes[m], what)) return bad;
     for (std::size_t other = 0; other < m; ++other) {
       if (data.modes[other].name == data.modes[m].name) {
         return finding("mode-name", "CTRL", 0, what + "has the name of mode " + number(other));
@@ -238,6 +298,10 @@ Check check_sprite_data(const SpriteData& data) {
   }
   if (Check bad = check_transitions(data)) return bad;
   return check_modes(data);
+}
+
+void complete(SpriteData& data) noexcept {
+  for (Sample& s : data.samples) s.step_length = step_length(s.step_x, s.step_y);
 }
 
 Check check_picture_sizes(const SpriteData& data) {
@@ -277,8 +341,13 @@ bool Sprite::is_natural(std::uint32_t from, std::uint32_t to) const noexcept {
   return to < impl_->data.samples.size() && detail::is_natural(impl_->data, from, to);
 }
 
+bool Sprite::is_skip(std::uint32_t from, std::uint32_t to) const noexcept {
+  return detail::is_skip(impl_->data, from, to);
+}
+
 float Sprite::transition_cost(std::uint32_t from, std::uint32_t to) const noexcept {
   if (is_natural(from, to)) return 0;
+  if (is_skip(from, to)) return impl_->data.samples[from].skip_cost;
   const Transition* found = detail::find_transition(impl_->data, from, to);
   return found ? found->cost : std::numeric_limits<float>::infinity();
 }
@@ -360,10 +429,22 @@ Result<Sprite> make_sprite(SpriteData data) {
     }
     auto impl = std::make_unique<Sprite::Impl>();
     impl->data = std::move(data);
+    detail::complete(impl->data);
     return Sprite(std::move(impl));
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, "out of memory for a sprite"};
   }
+}
+
+std::uint32_t step_length(std::int32_t x, std::int32_t y) noexcept {
+  const auto ax = static_cast<std::uint64_t>(std::abs(std::int64_t{x}));
+  const auto ay = static_cast<std::uint64_t>(std::abs(std::int64_t{y}));
+  const std::uint64_t square = ax * ax + ay * ay;  // at most 2^63
+  // The double root is right to one unit; the rest is exact.
+  auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(square)));
+  while (root * root > square) --root;
+  while ((root + 1) * (root + 1) <= square) ++root;
+  return static_cast<std::uint32_t>(root);
 }
 
 std::int32_t step_per_tick(float velocity, std::uint32_t fps_numerator,

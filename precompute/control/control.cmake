@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
+  control/bench.cpp
+  control/joint.cpp
+  control/lanes.cpp
   control/solve.cpp
+  control/reach.cpp
   control/response.cpp
 )

@@ -45,71 +45,81 @@ void run(const Sprite& sprite, Actor& actor, std::uint64_t count) {
   for (std::uint64_t t = 0; t < count; ++t) step(sprite, actor);
 }
 
-// Mean (nearest-rank for p): values are sorted in place. Pre: not empty.
-double median(std::vector<double>& values) {
+// Nearest rank for p. Pre: not empty.
+double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const std::size_t n = values.size();
   return (values[(n - 1) / 2] + values[n / 2]) / 2;
 }
-double percentile(std::vector<double>& values, std::size_t percent) {
+double percentile(std::vector<double> values, std::size_t percent) {
   std::sort(values.begin(), values.end());
   return values[(values.size() * percent + 99) / 100 - 1];
 }
 
-// Follows the last command until the travelled direction fits it.
+// Follows the last command until the travelled direction fits it, and until the picture differs
+// from what the command before would have shown.
 class TurnMeter {
  public:
-  TurnMeter(double least_px, std::uint32_t served) : least_px_(least_px), served_(served) {}
+  TurnMeter(const Sprite& sprite, double least_px, std::uint32_t served, SteerTally& tally)
+      : sprite_(sprite), least_px_(least_px), served_(served), tally_(tally) {}
 
-  void command(Direction direction, std::uint64_t tick) {
+  // `actor` has not been told yet.
+  void command(const Actor& actor, Direction direction, std::uint64_t tick) {
+    const auto stood = static_cast<double>(tick - since_);
     if (waiting_) {
-      turns_.push_back(static_cast<double>(tick - since_));
-      ++unfinished_;
+      tally_.turns.push_back(stood);
+      ++tally_.unfinished;
     }
-    waiting_ = static_cast<int>(direction) < kCompassCount &&
-               (served_ >> static_cast<int>(direction) & 1u) != 0;
+    if (unchanged_) tally_.first_changes.push_back(stood);
+    waiting_ = unchanged_ = is_served(direction);
     wanted_ = direction;
     since_ = tick;
+    shadow_ = actor;
   }
+  // Before a tick's step.
   void look(Position position, std::uint64_t tick) {
     past_.push_back(position);
     if (past_.size() > kWindow + 1) past_.pop_front();
     if (!waiting_ || past_.size() <= kWindow) return;
     if (length_px(past_.front(), position) < least_px_) return;
     if (error_deg(past_.front(), position, wanted_) > kTurned) return;
-    turns_.push_back(static_cast<double>(tick - since_));
+    tally_.turns.push_back(static_cast<double>(tick - since_));
     waiting_ = false;
   }
-  std::vector<double>& turns() { return turns_; }
-  int unfinished() const { return unfinished_; }
+  // After it.
+  void compare(const Actor& actor, std::uint64_t tick) {
+    if (!unchanged_) return;
+    step(sprite_, shadow_);
+    if (shadow_.sample == actor.sample) return;
+    tally_.first_changes.push_back(static_cast<double>(tick + 1 - since_));
+    unchanged_ = false;
+  }
+  void travel(Position from, Position to) {
+    if (!is_served(wanted_)) return;
+    const Vec2 unit = unit_vector(wanted_);
+    tally_.way += length_px(from, to);
+    tally_.along += (static_cast<double>(to.x - from.x) * static_cast<double>(unit.x) +
+                     static_cast<double>(to.y - from.y) * static_cast<double>(unit.y)) /
+                    static_cast<double>(kFixedOne);
+    ++tally_.commanded_ticks;
+  }
 
  private:
+  bool is_served(Direction direction) const {
+    const int d = static_cast<int>(direction);
+    return d < kCompassCount && (served_ >> d & 1u) != 0;
+  }
+
+  const Sprite& sprite_;
   double least_px_ = 0;
   std::uint32_t served_ = 0;
+  SteerTally& tally_;
   std::deque<Position> past_;
-  std::vector<double> turns_;
+  Actor shadow_;
   Direction wanted_ = Direction::None;
   std::uint64_t since_ = 0;
-  bool waiting_ = false;
-  int unfinished_ = 0;
+  bool waiting_ = false, unchanged_ = false;
 };
-
-void sum_up(std::vector<double>& costs, TurnMeter& meter, std::uint64_t jumps, double fps,
-            SteerReport& report) {
-  report.turns = static_cast<int>(meter.turns().size());
-  report.unfinished = meter.unfinished();
-  if (report.turns > 0) {
-    report.turn_median = median(meter.turns());
-    report.turn_p95 = percentile(meter.turns(), 95);
-  }
-  if (costs.empty()) return;
-  double sum = 0;
-  for (double c : costs) sum += c;
-  report.cost_mean = sum / static_cast<double>(costs.size());
-  report.cost_p99 = percentile(costs, 99);
-  report.cost_max = costs.back();
-  report.jumps_per_second = static_cast<double>(jumps) * fps / static_cast<double>(costs.size());
-}
 
 }  // namespace
 
@@ -121,6 +131,10 @@ SpeedScale measure_speeds(std::span<const Sample> samples) {
     areas.push_back(static_cast<double>(s.area));
   }
   return measure_speeds(std::move(speeds), std::move(areas));
+}
+
+double usual_v0(const SpeedScale& speeds) noexcept {
+  return 0.35 * (speeds.usual > 0 ? speeds.usual : speeds.moving);
 }
 
 std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& sprite, int mode,
@@ -151,6 +165,7 @@ std::array<DirectionReport, kCompassCount> measure_directions(const Sprite& spri
       report.speed += length_px(from, actor.position) / (kTravel * kStarts);
     }
     report.reachable = speeds.usual > 0 && report.speed >= least && error <= kReachable;
+    report.raw_error_deg = error;
     if (report.reachable) report.tracking_error_deg = error;
   }
   return reports;
@@ -179,40 +194,91 @@ ServedDirections serve_directions(const std::array<DirectionReport, kCompassCoun
   return result;
 }
 
-SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script,
-                             std::uint64_t frames, std::uint64_t seed,
-                             std::vector<TraceRow>* trace) {
-  const double fps = sprite.fps();
-  TurnMeter meter(kLeastShare * usual_speed(sprite) * static_cast<double>(kWindow) / fps,
-                  sprite.data().modes[static_cast<std::size_t>(mode)].served);
-  Actor actor = make_actor(sprite, {}, seed, mode);
-  StateHash hash;
+void serve(const Sprite& sprite, int mode, std::uint64_t seed, std::uint32_t wanted,
+           ControlMode& result) {
+  auto reports = measure_directions(sprite, mode, seed);
+  for (std::size_t d = 0; d < kCompassCount; ++d) {
+    if ((wanted >> d & 1u) == 0) reports[d].reachable = false;
+  }
+  const ServedDirections served = serve_directions(reports);
+  result.served = served.served;
+  result.table_of = served.table_of;
+  result.served_headings = 0;
+  const std::uint32_t fine = result.headings / kCompassCount;
+  for (std::uint32_t h = 0; h < result.headings; ++h) {
+    const std::uint32_t d = h / fine, after = h % fine == 0 ? d : (d + 1) % kCompassCount;
+    if ((served.served >> d & 1u) != 0 && (served.served >> after & 1u) != 0)
+      result.served_headings |= 1u << h;
+  }
+}
+
+SteerReport SteerTally::report(double fps) const {
   SteerReport report;
-  std::vector<double> costs;
-  costs.reserve(frames);
-  std::uint64_t jumps = 0;
+  report.frames = costs.size();
+  report.turns = static_cast<int>(turns.size());
+  report.unfinished = unfinished;
+  report.freezes = freezes;
+  if (!turns.empty()) {
+    report.turn_median = median(turns);
+    report.turn_p95 = percentile(turns, 95);
+  }
+  if (!first_changes.empty()) {
+    report.first_change_median = median(first_changes);
+    report.first_change_p95 = percentile(first_changes, 95);
+  }
+  if (commanded_ticks > 0) report.speed = way * fps / static_cast<double>(commanded_ticks);
+  if (way > 0) report.travel_share = along / way;
+  if (costs.empty()) return report;
+  double sum = 0;
+  for (const double c : costs) sum += c;
+  report.cost_mean = sum / static_cast<double>(costs.size());
+  report.cost_p99 = percentile(costs, 99);
+  report.cost_max = *std::max_element(costs.begin(), costs.end());
+  report.jumps_per_second = static_cast<double>(jumps) * fps / static_cast<double>(costs.size());
+  return report;
+}
+
+void tally_steering(const Sprite& sprite, int mode, const KeyScript& script, std::uint64_t frames,
+                    std::uint64_t seed, SteerTally& tally, std::uint64_t* hash,
+                    std::vector<TraceRow>* trace) {
+  const double fps = sprite.fps();
+  TurnMeter meter(sprite, kLeastShare * usual_speed(sprite) * static_cast<double>(kWindow) / fps,
+                  sprite.data().modes[static_cast<std::size_t>(mode)].served, tally);
+  Actor actor = make_actor(sprite, {}, seed, mode);
+  StateHash states;
+  tally.costs.reserve(tally.costs.size() + frames);
   for (std::uint64_t tick = 0; tick < frames; ++tick) {
     const Direction wanted = script.at(tick);
-    if (wanted != actor.direction) meter.command(wanted, tick);
+    if (wanted != actor.direction) meter.command(actor, wanted, tick);
     set_direction(sprite, actor, wanted);
     meter.look(actor.position, tick);
     const Actor before = actor;
     step(sprite, actor);
-    hash.add(actor);
-    costs.push_back(static_cast<double>(shown_cost(sprite, before.sample, actor)));
-    jumps += actor.jumped;
+    meter.compare(actor, tick);
+    meter.travel(before.position, actor.position);
+    if (hash != nullptr) states.add(actor);
+    tally.costs.push_back(static_cast<double>(shown_cost(sprite, before.sample, actor)));
+    tally.jumps += actor.jumped;
     const bool over = before.shown >= sprite.samples()[before.sample].duration;
-    report.freezes += over && actor.sample == before.sample;
+    tally.freezes += over && actor.sample == before.sample;
     if (trace) {
       trace->push_back({actor.tick, actor.sample,
                         static_cast<double>(actor.position.x) / static_cast<double>(kFixedOne),
                         static_cast<double>(actor.position.y) / static_cast<double>(kFixedOne),
-                        actor.direction, actor.table, costs.back()});
+                        actor.direction, actor.table, tally.costs.back()});
     }
   }
-  report.frames = frames;
-  report.states_hash = hash.digest();
-  sum_up(costs, meter, jumps, fps, report);
+  if (hash != nullptr) *hash = states.digest();
+}
+
+SteerReport measure_steering(const Sprite& sprite, int mode, const KeyScript& script,
+                             std::uint64_t frames, std::uint64_t seed,
+                             std::vector<TraceRow>* trace) {
+  SteerTally tally;
+  std::uint64_t hash = 0;
+  tally_steering(sprite, mode, script, frames, seed, tally, &hash, trace);
+  SteerReport report = tally.report(sprite.fps());
+  report.states_hash = hash;
   double error = 0;
   int reached = 0;
   for (const DirectionReport& d : measure_directions(sprite, mode, seed)) {

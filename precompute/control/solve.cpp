@@ -1,210 +1,167 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// NIPS section 4: equation 2 by policy iteration instead of the paper's literal iteration, which
-// needs about ln(1/eps) / (1 - alpha) sweeps. Departure: standing costs pi (DESIGN section 2), or
-// the sprite would stand for ever, since the angle of a resting sample means nothing.
+// NIPS section 4: equation 2 by policy iteration (lanes.h) instead of the paper's literal
+// iteration, which needs about ln(1/eps) / (1 - alpha) sweeps and stays as `iterate`. Departure:
+// standing costs pi (DESIGN section 2), or the sprite would stand for ever, since the angle of a
+// resting sample means nothing.
 #include "control/solve.h"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include "control/lanes.h"
+#include "similarity/features.h"
 
 namespace vsprite {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kMaxSweeps = 10000;  // never met: a policy is improved 10..20 times
+constexpr int kMaxIterations =
+    10'000'000;  // of the paper's own method; never met below a = 0.99999
 
-// The transitions under the cap, as a mode sees them.
-struct Graph {
-  std::vector<std::uint32_t> row_start;
-  std::vector<Transition> edges;
-  std::size_t size() const { return row_start.size() - 1; }
+// Eight groups of tables and what they have in common.
+struct Block {
+  std::size_t first = 0, count = kLanes;  // groups
+  LaneFloats arrive;                      // w1 a_j(l)
 };
 
-Graph cap_costs(const CostTable& costs, double cap) {
-  Graph graph;
-  graph.row_start.assign(1, 0);
-  for (std::size_t i = 0; i + 1 < costs.row_start.size(); ++i) {
-    float cheapest = std::numeric_limits<float>::infinity();
-    for (std::uint32_t e = costs.row_start[i]; e < costs.row_start[i + 1]; ++e) {
-      cheapest = std::min(cheapest, costs.transitions[e].cost);
+Block make_block(std::span<const Vec2> velocities, double v0, const SolveConfig& config,
+                 std::size_t first) {
+  const auto groups = static_cast<std::size_t>(config.headings) + 2;
+  Block block{first, std::min(kLanes, groups - first), LaneFloats(velocities.size() * kLanes, 0)};
+  for (std::size_t j = 0; j < velocities.size(); ++j) {
+    for (std::size_t lane = 0; lane < block.count; ++lane) {
+      block.arrive[j * kLanes + lane] = static_cast<float>(
+          config.w1 *
+          heading_cost(velocities[j], v0, static_cast<int>(first + lane), config.headings));
     }
-    const double limit = std::max(cap, static_cast<double>(cheapest));
-    for (std::uint32_t e = costs.row_start[i]; e < costs.row_start[i + 1]; ++e) {
-      const Transition& t = costs.transitions[e];
-      if (static_cast<double>(t.cost) <= limit) graph.edges.push_back(t);
-    }
-    graph.row_start.push_back(static_cast<std::uint32_t>(graph.edges.size()));
   }
-  return graph;
+  return block;
 }
 
-// The best edge out of i for given costs per state and values behind; `best` may hold an action
-// that is kept unless another is strictly better. Value is +inf where the row is empty.
-struct Choice {
-  double value = kInfinity;
-  std::uint32_t to = kNoSample;
-  double cost = 0;  // T + w1 a of the step
-};
-template <class Values>
-Choice best_edge(const Graph& graph, std::span<const double> state_cost, double alpha,
-                 const Values& values, std::size_t i) {
-  Choice best;
-  for (std::uint32_t e = graph.row_start[i]; e < graph.row_start[i + 1]; ++e) {
-    const Transition& t = graph.edges[e];
-    const double cost = static_cast<double>(t.cost) + state_cost[t.to];
-    const double f = cost + alpha * static_cast<double>(values[t.to]);
-    if (f < best.value) best = {f, t.to, cost};
-  }
-  return best;
-}
-
-struct Policy {
-  std::vector<std::uint32_t> to;
-  std::vector<double> cost;  // T + w1 a of the step
-};
-
-// V of a policy, exactly. Follow the policy from an unvisited sample until a known one, or until
-// the walk meets itself: then on the cycle i_0 .. i_(m-1)
-//     V(i_0) = sum_q alpha^q c(i_q) / (1 - alpha^m),
-// and everything before follows by V(i) = c(i) + alpha V(to(i)).
-void evaluate(const Policy& policy, double alpha, std::vector<double>& values) {
-  enum : std::uint8_t { Unseen, OnWalk, Known };
-  std::vector<std::uint8_t> state(values.size(), Unseen);
-  std::vector<std::uint32_t> walk;
-  for (std::uint32_t start = 0; start < values.size(); ++start) {
-    if (policy.to[start] == kNoSample || state[start] == Known) continue;
-    walk.clear();
-    std::uint32_t i = start;
-    while (state[i] == Unseen) {
-      state[i] = OnWalk;
-      walk.push_back(i);
-      i = policy.to[i];
+// The paper's own method: F_ij = T_ij at first, then equation 2 again and again. Only the smallest
+// F of a row is ever looked at, so only it is kept.
+LaneDoubles iterate(const Edges& edges, const LaneFloats& arrive, double alpha) {
+  LaneDoubles go(arrive.size(), 0), values, after;
+  std::vector<std::uint32_t> next;
+  best_of_rows(edges, go, values, next);
+  for (int k = 0; k < kMaxIterations; ++k) {
+    for (std::size_t a = 0; a < go.size(); ++a) {
+      go[a] = static_cast<double>(arrive[a]) + (std::isfinite(values[a]) ? alpha * values[a] : 0);
     }
-    if (state[i] == OnWalk) {
-      double sum = 0, power = 1;
-      std::uint32_t q = i;
-      do {
-        sum += power * policy.cost[q];
-        power *= alpha;
-        q = policy.to[q];
-      } while (q != i);
-      values[i] = sum / (1 - power);
-      state[i] = Known;
+    best_of_rows(edges, go, after, next);
+    double change = 0, largest = 0;
+    for (std::size_t a = 0; a < go.size(); ++a) {
+      if (!std::isfinite(after[a])) continue;
+      change = std::max(change, std::fabs(after[a] - values[a]));
+      largest = std::max(largest, after[a]);
     }
-    for (std::size_t k = walk.size(); k-- > 0;) {
-      const std::uint32_t w = walk[k];
-      if (state[w] == Known) continue;
-      values[w] = policy.cost[w] + alpha * values[policy.to[w]];
-      state[w] = Known;
-    }
-  }
-}
-
-// V of the constrained table: Howard's policy iteration, improved in place from the last sample to
-// the first (a film runs forward, so values travel backwards), until no action changes.
-std::vector<double> solve_constrained(const Graph& graph, std::span<const double> state_cost,
-                                      double alpha) {
-  const std::size_t n = graph.size();
-  std::vector<double> values(n, 0);
-  Policy policy{std::vector<std::uint32_t>(n, kNoSample), std::vector<double>(n, 0)};
-  for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
-    bool changed = false;
-    for (std::size_t i = n; i-- > 0;) {
-      const Choice best = best_edge(graph, state_cost, alpha, values, i);
-      if (best.to == kNoSample) continue;
-      const double now =
-          policy.to[i] == kNoSample ? kInfinity : policy.cost[i] + alpha * values[policy.to[i]];
-      if (!(best.value < now - 1e-12 * (1 + now)) && policy.to[i] != kNoSample) {
-        values[i] = now;
-        continue;
-      }
-      policy.to[i] = best.to;
-      policy.cost[i] = best.cost;
-      values[i] = best.value;
-      changed = true;
-    }
-    if (!changed) break;
-    evaluate(policy, alpha, values);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (policy.to[i] == kNoSample) values[i] = kInfinity;
+    values.swap(after);
+    if (change <= 1e-11 * (1 + largest) * (1 - alpha)) break;
   }
   return values;
 }
 
-// The state costs of one direction's constrained table: w1 a_j(l).
-std::vector<double> state_costs(std::span<const Vec2> velocities, double v0, Direction direction,
-                                double w1) {
-  std::vector<double> costs;
-  costs.reserve(velocities.size());
-  for (const Vec2& v : velocities) costs.push_back(w1 * direction_cost(v, v0, direction));
-  return costs;
-}
-
-// Stores V as float, then reads next and the residual off the stored values, so that both hold for
-// what is in the file. `behind`: the values that the table looks up; itself for the constrained
-// one.
-double finish_table(const Graph& graph, std::span<const double> state_cost, double alpha,
-                    std::span<const float> behind, std::span<const float> values,
-                    std::span<std::uint32_t> next) {
+// Writes one stage of a block's tables, read off its values; returns the largest |TV - V|.
+// `values`: V as it will be stored; where empty, V is what the rows give.
+double write_stage(const Edges& edges, const LaneDoubles& go, const LaneDoubles* values,
+                   const Block& block, std::size_t stage, Solution& solution, LaneDoubles& stored) {
+  const std::size_t n = edges.size(), stages = solution.mode.stages;
+  LaneDoubles best;
+  std::vector<std::uint32_t> next;
+  best_of_rows(edges, go, best, next);
+  stored.resize(n * kLanes);
   double residual = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Choice best = best_edge(graph, state_cost, alpha, behind, i);
-    next[i] = best.to;
-    if (best.to == kNoSample) continue;
-    residual = std::max(residual, std::fabs(best.value - static_cast<double>(values[i])));
-  }
-  return residual;
-}
-
-// One direction: the constrained table, then the chain V^1 .. V^K on top of it.
-double solve_direction(const Graph& graph, const std::vector<double>& state_cost, double alpha,
-                       std::size_t stages, std::span<float> values, std::span<std::uint32_t> next) {
-  const std::size_t n = graph.size();
-  const std::vector<double> free_cost(n, 0);
-  const std::vector<double> constrained = solve_constrained(graph, state_cost, alpha);
-  for (std::size_t i = 0; i < n; ++i) values[i] = static_cast<float>(constrained[i]);
-  double residual =
-      finish_table(graph, state_cost, alpha, values.first(n), values.first(n), next.first(n));
-  for (std::size_t k = 1; k < stages; ++k) {
-    const auto behind = values.subspan((k - 1) * n, n), here = values.subspan(k * n, n);
+  for (std::size_t lane = 0; lane < block.count; ++lane) {
+    const std::size_t table = ((block.first + lane) * stages + stage) * n;
     for (std::size_t i = 0; i < n; ++i) {
-      here[i] = static_cast<float>(best_edge(graph, free_cost, alpha, behind, i).value);
+      const std::size_t at = i * kLanes + lane;
+      const double value = values != nullptr ? (*values)[at] : best[at];
+      const bool kept = std::isfinite(best[at]);
+      solution.values[table + i] = static_cast<float>(value);
+      solution.mode.next[table + i] = next[at];
+      solution.mode.go[table + i] = kept ? static_cast<float>(go[at]) : 0;
+      stored[at] = kept ? static_cast<double>(solution.values[table + i]) : 0;
+      if (kept) residual = std::max(residual, std::fabs(best[at] - stored[at]));
     }
-    residual = std::max(
-        residual, finish_table(graph, free_cost, alpha, behind, here, next.subspan(k * n, n)));
   }
   return residual;
 }
 
-Result<void> check(const CostTable& costs, std::span<const Vec2> velocities, double v0,
-                   const SolveConfig& config) {
-  const auto bad = [](const std::string& name, double found, const std::string& due) {
-    return Error{ErrorCode::BadSetting, "solve: " + name + " is " + std::to_string(found) + ", " +
-                                            due + " is due; correct the setting"};
-  };
+// One block: the constrained tables, then the chain V^1 .. V^K on top of them.
+double solve_block(const Edges& edges, const Block& block, const SolveConfig& config,
+                   Solution& solution) {
+  LaneDoubles values;
+  if (config.iterate) {
+    values = iterate(edges, block.arrive, config.alpha);
+  } else {
+    Lanes lanes;
+    lanes.discount = config.alpha;
+    lanes.arrive = block.arrive;
+    start(edges, lanes);
+    solve_lanes(edges, lanes);
+    values = std::move(lanes.values);
+  }
+  LaneDoubles go(values.size()), stored;
+  for (std::size_t a = 0; a < go.size(); ++a) {
+    values[a] = static_cast<double>(static_cast<float>(values[a]));
+    go[a] = static_cast<double>(block.arrive[a]) +
+            (std::isfinite(values[a]) ? config.alpha * values[a] : 0);
+  }
+  double residual = write_stage(edges, go, &values, block, 0, solution, stored);
+  for (std::size_t k = 1; k < solution.mode.stages; ++k) {
+    for (std::size_t a = 0; a < go.size(); ++a) go[a] = config.alpha * stored[a];
+    residual = std::max(residual, write_stage(edges, go, nullptr, block, k, solution, stored));
+  }
+  return residual;
+}
+
+Result<void> check_settings(const SolveConfig& config) {
+  using detail::bad_setting;
   if (!(config.alpha >= 0 && config.alpha < 1)) {
-    return bad("alpha", config.alpha, "a number from 0 to below 1");
+    return bad_setting("alpha", config.alpha, "a number from 0 to below 1");
   }
-  if (!(config.w1 >= 0 && config.w1 < 1e6)) return bad("w1", config.w1, "0 to 1000000");
-  if (!(config.cap > 0)) return bad("cap", config.cap, "a number above 0");
+  if (!(config.w1 >= 0 && config.w1 < 1e6)) return bad_setting("w1", config.w1, "0 to 1000000");
+  if (!(config.cap > 0)) return bad_setting("cap", config.cap, "a number above 0");
   if (config.free_steps < 0 || config.free_steps > 10) {
-    return bad("free_steps", config.free_steps, "0 to 10");
+    return bad_setting("free_steps", config.free_steps, "0 to 10");
   }
-  if (!(v0 > 0)) return bad("v0", v0, "a speed above 0");
-  assert(costs.row_start.size() == velocities.size() + 1);
-  for (std::size_t i = 0; i < velocities.size(); ++i) {
+  if (config.headings != 8 && config.headings != 16 && config.headings != 32) {
+    return bad_setting("directions", config.headings, "8, 16 or 32");
+  }
+  const int tables = (config.headings + 2) * (config.free_steps + 1);
+  if (tables > 256) {
+    return bad_setting("free_steps", config.free_steps,
+                       "so many directions allow at most " +
+                           std::to_string(256 / (config.headings + 2) - 1) + "; less");
+  }
+  return {};
+}
+
+}  // namespace
+
+namespace detail {
+
+Error bad_setting(const std::string& name, double found, const std::string& due) {
+  return {ErrorCode::BadSetting, "solve: " + name + " is " + std::to_string(found) + ", " + due +
+                                     " is due; correct the setting"};
+}
+
+Result<void> check_graph(const CostTable& costs, std::size_t samples, double v0) {
+  if (!(v0 > 0)) return bad_setting("v0", v0, "a speed above 0");
+  assert(costs.row_start.size() == samples + 1);
+  for (std::size_t i = 0; i < samples; ++i) {
     bool sound = costs.kept[i] == 0 || costs.row_start[i] < costs.row_start[i + 1];
     for (std::uint32_t e = costs.row_start[i]; e < costs.row_start[i + 1]; ++e) {
       const Transition& t = costs.transitions[e];
-      sound = sound && t.to < velocities.size() && costs.kept[t.to] && t.cost >= 0;
+      sound = sound && t.to < samples && costs.kept[t.to] && t.cost >= 0 && std::isfinite(t.cost);
     }
     if (!sound) {
       return Error{ErrorCode::BadContent,
@@ -216,17 +173,42 @@ Result<void> check(const CostTable& costs, std::span<const Vec2> velocities, dou
   return {};
 }
 
-}  // namespace
+Solution empty_solution(const char* name, int headings, int stages, std::size_t samples) {
+  Solution solution;
+  ControlMode& mode = solution.mode;
+  mode.name = name;
+  mode.headings = static_cast<std::uint32_t>(headings);
+  mode.stages = static_cast<std::uint32_t>(stages);
+  for (std::size_t d = 0; d < kDirectionCount; ++d) mode.table_of[d] = static_cast<Direction>(d);
+  mode.served = (1u << kCompassCount) - 1;
+  mode.served_headings = mode.headings == 32 ? ~0u : (1u << mode.headings) - 1;
+  mode.next.assign(mode.tables() * samples, kNoSample);
+  mode.go.assign(mode.tables() * samples, 0);
+  solution.values.assign(mode.tables() * samples, 0);
+  return solution;
+}
 
-double direction_cost(Vec2 velocity, double v0, Direction direction) noexcept {
+}  // namespace detail
+
+double heading_angle(Vec2 velocity, int h, int headings) noexcept {
+  // The heading is in (-pi, pi], the command in [0, 2 pi): up to 3 pi apart before wrapping.
+  const double command = h * (2 * kPi / headings);
+  const double apart = std::fabs(
+      angle_of(static_cast<double>(velocity.x), static_cast<double>(velocity.y)) - command);
+  const double d = apart > 2 * kPi ? apart - 2 * kPi : apart;
+  return d > kPi ? 2 * kPi - d : d;
+}
+
+double heading_cost(Vec2 velocity, double v0, int h, int headings) noexcept {
   const auto x = static_cast<double>(velocity.x), y = static_cast<double>(velocity.y);
   const double f = std::min(1.0, std::sqrt(x * x + y * y) / v0);
-  if (direction == Direction::None) return 0;
-  if (direction == Direction::Rest) return kPi * f * f;
-  // The heading is in (-pi, pi], the command in [0, 2 pi): up to 11/4 pi apart before wrapping.
-  const double apart = std::fabs(angle_of(x, y) - static_cast<int>(direction) * (kPi / 4));
-  const double d = apart > 2 * kPi ? apart - 2 * kPi : apart;
-  return f * (d > kPi ? 2 * kPi - d : d) + (1 - f) * kPi;
+  if (h == headings) return 0;
+  if (h > headings) return kPi * f * f;
+  return f * heading_angle(velocity, h, headings) + (1 - f) * kPi;
+}
+
+double direction_cost(Vec2 velocity, double v0, Direction direction) noexcept {
+  return heading_cost(velocity, v0, static_cast<int>(direction), kCompassCount);
 }
 
 double default_w1(const CostTable& costs) {
@@ -241,28 +223,30 @@ double default_w1(const CostTable& costs) {
 }
 
 Result<Solution> solve(const CostTable& costs, std::span<const Vec2> velocities, double v0,
-                       const SolveConfig& config, int jobs) {
-  if (auto ok = check(costs, velocities, v0, config); !ok) return ok.error();
-  const Graph graph = cap_costs(costs, config.cap);
-  const std::size_t n = graph.size(), stages = static_cast<std::size_t>(config.free_steps) + 1;
-  Solution solution;
-  solution.stages = config.free_steps + 1;
-  solution.w1 = config.w1 > 0 ? config.w1 : default_w1(costs);
-  solution.values.resize(kDirectionCount * stages * n);
-  solution.next.resize(kDirectionCount * stages * n);
-  std::vector<double> residuals(kDirectionCount, 0);
+                       const SolveConfig& given, int jobs) {
+  if (auto ok = check_settings(given); !ok) return ok.error();
+  if (auto ok = detail::check_graph(costs, velocities.size(), v0); !ok) return ok.error();
+  SolveConfig config = given;
+  if (config.w1 == 0) config.w1 = default_w1(costs);
+  const Edges edges = make_edges(costs, {}, {.cap = config.cap});
+  Solution solution =
+      detail::empty_solution("paper", config.headings, config.free_steps + 1, velocities.size());
+  const std::size_t groups = solution.mode.headings + 2;
+  const std::size_t blocks = (groups + kLanes - 1) / kLanes;
+  std::vector<double> residuals(blocks, 0);
   tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
   arena.execute([&] {
-    tbb::parallel_for(0, kDirectionCount, [&](int d) {
-      const std::size_t start = static_cast<std::size_t>(d) * stages * n;
-      residuals[static_cast<std::size_t>(d)] = solve_direction(
-          graph, state_costs(velocities, v0, static_cast<Direction>(d), solution.w1), config.alpha,
-          stages, std::span(solution.values).subspan(start, stages * n),
-          std::span(solution.next).subspan(start, stages * n));
+    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+      residuals[b] =
+          solve_block(edges, make_block(velocities, v0, config, b * kLanes), config, solution);
     });
   });
-  solution.residual = *std::max_element(residuals.begin(), residuals.end());
-  solution.error_bound = solution.residual / (1 - config.alpha);
+  ControlMode& mode = solution.mode;
+  mode.alpha = static_cast<float>(config.alpha);
+  mode.w1 = static_cast<float>(config.w1);
+  mode.cap = static_cast<float>(config.cap);
+  mode.residual = *std::max_element(residuals.begin(), residuals.end());
+  mode.error_bound = mode.residual / (1 - config.alpha);
   return solution;
 }
 

@@ -1,15 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// control/solve.h - the discounted cost to go, for eight directions, no direction and rest.
+// control/solve.h - the mode "paper": the discounted cost to go for every heading, none and rest.
 //
 //     F_ij = T_ij + w1 a_j(l) + alpha min_k F_jk,   V_i = min_j F_ij          [NIPS eq. 2]
 //     a_j(l) = f |angle(v_j, l)| + (1 - f) pi,  f = min(1, |v_j| / v0)
 //     V^k_i = min_j [T_ij + alpha V^(k-1)_j],  k = 1..K                        [NIPS section 4.1]
 //
-// none: w1 = 0. rest: a_j = pi f^2 (a slow drift is worth no jump). A deterministic problem, so a policy is a
-// functional graph: every sample runs into one cycle, on which V is a geometric sum. Evaluation is
-// exact in O(N), whatever alpha; a few Gauss-Seidel sweeps improve the policy (Howard).
+// none: w1 = 0. rest: a_j = pi f^2 (a slow drift is worth no jump).
 #pragma once
 
 #include <cstdint>
@@ -19,6 +17,7 @@
 #include "similarity/transitions.h"
 #include "vsprite/geometry.h"
 #include "vsprite/result.h"
+#include "vsprite/sprite.h"
 
 namespace vsprite {
 
@@ -28,21 +27,23 @@ struct SolveConfig {
   double cap = 1.0;    ///< transitions dearer than this are left out, > 0; from a sample without an
                        ///< edge under the cap its cheapest are kept
   int free_steps = 5;  ///< K, 0..10
+  int headings = 8;    ///< 8, 16 or 32
+  bool iterate = false;  ///< the paper's own iteration from F = T instead of policy iteration
 };
 
-/// Everything about a mode that the pack stores, and V itself.
+/// A solved mode. All of it is served; who measures it may narrow that.
 struct Solution {
-  int stages = 1;                   ///< K + 1
-  double w1 = 0;                    ///< as used
-  std::vector<float> values;        ///< (10, stages, N); +inf where a sample was not kept
-  std::vector<std::uint32_t> next;  ///< (10 * stages, N) argmin of the same sum, from V as stored;
-                                    ///< ties: the lowest sample; kNoSample where not kept
-  double residual = 0;              ///< largest |TV - V| of V as stored, in double, over all tables
-  double error_bound = 0;           ///< residual / (1 - alpha)
+  ControlMode mode;           ///< next and go from V as stored; residual: largest |TV - V| of V as
+                              ///< stored, in double, over all tables
+  std::vector<float> values;  ///< V: (tables, N); +inf where a sample was not kept
 };
 
 /// a_j(l) in radians, [0, pi]; 0 for None.
 double direction_cost(Vec2 velocity, double v0, Direction direction) noexcept;
+/// The same for heading h of `headings`; h = headings is none, h = headings + 1 rest.
+double heading_cost(Vec2 velocity, double v0, int h, int headings) noexcept;
+/// |angle(v, l)|, radians in [0, pi].
+double heading_angle(Vec2 velocity, int h, int headings) noexcept;
 
 /// The default w1 of a film: pi w1 = 2.5 x the median cost of its jumps; 0.6 where it has none.
 double default_w1(const CostTable& costs);
@@ -53,4 +54,13 @@ double default_w1(const CostTable& costs);
 Result<Solution> solve(const CostTable& costs, std::span<const Vec2> velocities, double v0,
                        const SolveConfig& config, int jobs = 0);
 
+namespace detail {
+
+/// What both modes ask of their input. Errors: as solve().
+Result<void> check_graph(const CostTable& costs, std::size_t samples, double v0);
+Error bad_setting(const std::string& name, double found, const std::string& due);
+/// A mode with every direction served and room for its tables.
+Solution empty_solution(const char* name, int headings, int stages, std::size_t samples);
+
+}  // namespace detail
 }  // namespace vsprite

@@ -324,4 +324,19 @@ Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDis
   return table;
 }
 
+std::vector<float> skip_costs(const FeatureSet& set, const Classifier& classifier,
+                              std::span<const std::uint8_t> kept) {
+  const int n = static_cast<int>(set.samples.size());
+  std::vector<float> costs(set.samples.size(), std::numeric_limits<float>::infinity());
+  for (int i = 0; i + 2 < n; ++i) {
+    const auto s = static_cast<std::size_t>(i);
+    if (kept[s] == 0 || kept[s + 2] == 0 || !follows(set, i, i + 1) || !follows(set, i + 1, i + 2))
+      continue;
+    costs[s] = (classifier.distance(features(set, i, i + 1)) +
+                classifier.distance(features(set, i + 1, i + 2))) /
+               2;
+  }
+  return costs;
+}
+
 }  // namespace vsprite

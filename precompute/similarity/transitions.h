@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "similarity/classifier.h"
 #include "similarity/distance.h"
 #include "similarity/features.h"
 #include "vsprite/result.h"
@@ -53,6 +54,11 @@ struct TransitionStats {
 /// Errors: BadContent (no endless run of samples is left: says why and what to do), BadSetting.
 Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDistance> pairs,
                                   const TransitionConfig& config, TransitionStats& stats);
+
+/// (N) T of leaving the next sample out, (D_i,i+1 + D_i+1,i+2) / 2, whether or not these pairs are
+/// accepted; infinity where the clip ends before, or an end was not kept.
+std::vector<float> skip_costs(const FeatureSet& set, const Classifier& classifier,
+                              std::span<const std::uint8_t> kept);
 
 /// For every sample the number of its strongly connected part of the graph, and their count. Parts
 /// are numbered so that a part comes after those that it leads to.

@@ -44,21 +44,6 @@ Sample make_sample(const SampleRow& row, const FilmFacts& film, bool kept) {
   return sample;
 }
 
-ControlMode make_paper_mode(const ValueFile& values) {
-  ControlMode mode;
-  mode.name = "paper";
-  mode.alpha = static_cast<float>(values.config.alpha);
-  mode.w1 = static_cast<float>(values.config.w1);
-  mode.cap = static_cast<float>(values.config.cap);
-  mode.stages = static_cast<std::uint32_t>(values.solution.stages);
-  for (std::size_t d = 0; d < kDirectionCount; ++d) mode.table_of[d] = static_cast<Direction>(d);
-  mode.served = (1u << kCompassCount) - 1;
-  mode.residual = values.solution.residual;
-  mode.error_bound = values.solution.error_bound;
-  mode.next = values.solution.next;
-  return mode;
-}
-
 float median_side(const std::vector<Sample>& samples, std::span<const int> body_sides) {
   std::vector<int> sides;
   for (std::size_t i = 0; i < samples.size() && i < body_sides.size(); ++i)
@@ -96,8 +81,9 @@ Json direction_json(const SpriteData& data, const DirectionReport& report) {
 }  // namespace
 
 Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<SampleRow>& rows,
-                                    const CostTable& costs, const ValueFile& values,
+                                    const TransitionFile& file, const ValueFile& values,
                                     std::span<const int> body_sides) {
+  const CostTable& costs = file.costs;
   SpriteData data;
   data.name = fs::path(film.name).stem().string();
   data.fps_numerator = film.fps_numerator;
@@ -105,6 +91,7 @@ Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<Sam
   for (std::size_t i = 0; i < rows.size(); ++i) {
     data.samples.push_back(make_sample(rows[i], film, costs.kept[i] == 1));
     data.samples.back().tag = tag_index(data.tags, rows[i].tag);
+    if (i < file.skip_costs.size()) data.samples.back().skip_cost = file.skip_costs[i];
   }
   const auto first = std::find(costs.kept.begin(), costs.kept.end(), std::uint8_t{1});
   if (first == costs.kept.end())
@@ -114,7 +101,7 @@ Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<Sam
   data.row_start = costs.row_start;
   data.transitions = costs.transitions;
   data.body_length = median_side(data.samples, body_sides);
-  data.modes.push_back(make_paper_mode(values));
+  for (const Solution& solution : values.modes) data.modes.push_back(solution.mode);
   return data;
 }
 
@@ -123,9 +110,11 @@ std::string unserved_reason(const SpriteData& data, const DirectionReport& repor
   const Vec2 unit = unit_vector(report.direction);
   const double least = measure_speeds(data.samples).moving;
   int moving = 0, toward = 0, kept = 0;
+  double fastest = 0;
   for (const Sample& sample : data.samples) {
     const double speed = std::sqrt(double{sample.velocity.x} * sample.velocity.x +
                                    double{sample.velocity.y} * sample.velocity.y);
+    fastest = std::max(fastest, speed);
     if (speed <= least) continue;
     ++moving;
     const double along =
@@ -138,11 +127,17 @@ std::string unserved_reason(const SpriteData& data, const DirectionReport& repor
   const auto frames = [](int n) {
     return std::to_string(n) + (n == 1 ? " sample moves" : " samples move");
   };
-  if (moving == 0) return "nothing in the film moves from its place";
+  const auto whole = [](double speed) { return std::to_string(std::lround(speed)); };
+  if (moving == 0)
+    return "it only sways: " + whole(fastest) + " px/s at most, and " + whole(least) +
+           " count as moving";
   if (toward == 0) return "the film never moves " + way + ": film some seconds of it";
   if (kept == 0)
     return frames(toward) +
            " that way, but no smooth jump leads to them and back: film more ways in and out";
+  if (report.speed < least)
+    return frames(kept) + " that way, but none for long: it only sways, and gets on at " +
+           whole(report.speed) + " px/s where " + whole(least) + " count as moving";
   return frames(kept) +
          " that way, but no run of them keeps to it: film more of it, with turns into it and out "
          "of it";
@@ -163,15 +158,12 @@ Result<Json> write_pack(StageRun& run) {
   const std::vector<int> sides =
       run.sprites ? run.sprites->body_sides : measure_bodies(reader, rows->size(), state);
   if (!state) return state.error();
-  auto data = make_sprite_data(*film, *rows, file->costs, *values, sides);
+  auto data = make_sprite_data(*film, *rows, *file, *values, sides);
   if (!data) return data.error();
 
   const auto trial = make_sprite(*data);
   if (!trial) return trial.error();
   const DirectionReports reports = measure_directions(*trial, 0, run.settings.seed);
-  const ServedDirections served = serve_directions(reports);
-  data->modes.front().served = served.served;
-  data->modes.front().table_of = served.table_of;
 
   PictureReader pictures(run.project, *rows);
   const double count = static_cast<double>(rows->size());

@@ -20,11 +20,10 @@
 
 namespace vsprite {
 
-/// All directions stand as served until serve_directions() has been told otherwise.
 /// `body_sides`: (N) px, longer side of each picture's alpha >= 128 box.
 /// Errors: BadContent (no sample was kept).
 Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<SampleRow>& rows,
-                                    const CostTable& costs, const ValueFile& values,
+                                    const TransitionFile& file, const ValueFile& values,
                                     std::span<const int> body_sides);
 
 using DirectionReports = std::array<DirectionReport, kCompassCount>;

@@ -3,6 +3,7 @@
 #include "tool/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "vsprite/geometry.h"
@@ -119,11 +120,16 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     for (const Json& reason : r.value("reasons", Json::array()))
       if (reason.is_string()) lines.push_back(reason.get<std::string>());
   } else if (stage.name == "solve") {
-    char text[160];
-    std::snprintf(text, sizeof text, "%s tables, alpha %g, w1 %g, cap %g; values exact to %.2g",
-                  count_text(r, "tables").c_str(), real_of(r, "alpha"), real_of(r, "w1"),
-                  real_of(r, "cap"), real_of(r, "error_bound"));
-    lines.push_back(text);
+    const auto line = [&](const char* name, const Json& mode) {
+      char text[200];
+      std::snprintf(text, sizeof text,
+                    "%s: %s tables, alpha %.4g, w1 %.3g, cap %.3g; values exact to %.2g", name,
+                    count_text(mode, "tables").c_str(), real_of(mode, "alpha"), real_of(mode, "w1"),
+                    real_of(mode, "cap"), real_of(mode, "error_bound"));
+      lines.push_back(text);
+    };
+    if (r.contains("responsive")) line("responsive", r["responsive"]);
+    line("paper", r);
   } else if (stage.name == "pack") {
     lines.push_back(bytes_text(static_cast<std::uint64_t>(count_of(r, "pack_bytes"))));
   }
@@ -158,15 +164,24 @@ Json direction_list(const ControlMode& mode) {
 }
 
 Json mode_json(const ControlMode& mode) {
-  return {{"mode", mode.name},
-          {"alpha", mode.alpha},
-          {"w1", mode.w1},
-          {"cap", mode.cap},
-          {"free_steps", mode.stages - 1},
-          {"directions", direction_list(mode)},
-          {"tables", kDirectionCount * mode.stages},
-          {"residual", mode.residual},
-          {"error_bound", mode.error_bound}};
+  Json out = {{"mode", mode.name}, {"alpha", mode.alpha}, {"w1", mode.w1}, {"cap", mode.cap}};
+  if (mode.by_state) {
+    out["turn_w1"] = mode.turn_w1;
+    out["change_rate"] = mode.change_rate;
+    out["speed_weight"] = mode.speed_weight;
+    out["play_through"] = mode.plays_through;
+    out["skip_price"] = mode.skip_price;
+    out["exit_deg"] = mode.exit_angle * 180 / kPi;
+    out["bend_deg"] = mode.dead_angle * 180 / kPi;
+  } else {
+    out["free_steps"] = mode.stages - 1;
+  }
+  out["headings"] = mode.headings;
+  out["directions"] = direction_list(mode);
+  out["tables"] = mode.tables();
+  out["residual"] = mode.residual;
+  out["error_bound"] = mode.error_bound;
+  return out;
 }
 
 std::array<int, 2> largest_picture(const SpriteData& data) {
@@ -283,11 +298,22 @@ std::string info_text(const std::string& path, const Sprite& sprite, const PackI
       if (mode.served >> d & 1u)
         served +=
             (served.empty() ? "" : ", ") + std::string(direction_name(static_cast<Direction>(d)));
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "  mode %s: alpha %g, w1 %g, cap %g, K = %u, error bound %.2g\n",
-                  mode.name.c_str(), double{mode.alpha}, double{mode.w1}, double{mode.cap},
-                  mode.stages - 1, mode.error_bound);
+    char text[300];
+    std::snprintf(text, sizeof text, "  mode %s: alpha %.4g, w1 %.3g, cap %.3g", mode.name.c_str(),
+                  double{mode.alpha}, double{mode.w1}, double{mode.cap});
+    out += text;
+    if (mode.by_state) {
+      std::snprintf(text, sizeof text,
+                    ", turning w1 %.3g, expects a change in %.3g of the samples, bends up to %.3g "
+                    "degrees%s",
+                    double{mode.turn_w1}, double{mode.change_rate},
+                    double{mode.dead_angle} * 180 / kPi,
+                    mode.plays_through ? ", plays through" : "");
+    } else {
+      std::snprintf(text, sizeof text, ", K = %u", mode.stages - 1);
+    }
+    out += text;
+    std::snprintf(text, sizeof text, ", error bound %.2g\n", mode.error_bound);
     out += text;
     out += "    serves " +
            (served.empty() ? std::string("no direction: it plays by itself") : served) + "\n";
@@ -305,12 +331,18 @@ Json steer_json(const SteerReport& report) {
   out["frames_to_turn"] = {{"median", nullptr}, {"p95", nullptr}};
   if (report.turns > 0)
     out["frames_to_turn"] = {{"median", report.turn_median}, {"p95", report.turn_p95}};
+  out["first_change"] = {{"median", nullptr}, {"p95", nullptr}};
+  if (report.turns > 0)
+    out["first_change"] = {{"median", report.first_change_median},
+                           {"p95", report.first_change_p95}};
   out["turns"] = report.turns;
   out["unfinished"] = report.unfinished;
   out["transition_cost"] = {
       {"mean", report.cost_mean}, {"p99", report.cost_p99}, {"max", report.cost_max}};
   out["jumps_per_second"] = report.jumps_per_second;
   out["freezes"] = report.freezes;
+  out["speed"] = report.speed;
+  out["travel_share"] = report.travel_share;
   return out;
 }
 
@@ -325,11 +357,91 @@ std::string steer_text(const SteerReport& report, double fps) {
            fixed_text(1000 * report.turn_median / fps, 0) + " ms), 95 % " +
            fixed_text(report.turn_p95, 1) + " (" + fixed_text(1000 * report.turn_p95 / fps, 0) +
            " ms); " + std::to_string(report.unfinished) + " of " + std::to_string(report.turns) +
-           " unfinished\n";
+           " unfinished; the picture answers after " + fixed_text(report.first_change_median, 0) +
+           ", 95 % " + fixed_text(report.first_change_p95, 0) + "\n";
   out += "  transition cost         mean " + fixed_text(report.cost_mean, 4) + ", 99 % " +
          fixed_text(report.cost_p99, 3) + ", largest " + fixed_text(report.cost_max, 3) + "\n";
   out += "  jumps a second          " + fixed_text(report.jumps_per_second, 2) + "\n";
+  if (report.travel_share != 0)
+    out += "  along the command       " + fixed_text(100 * report.travel_share, 0) +
+           " % of the way, at " + fixed_text(report.speed, 0) + " px/s\n";
   out += "  freezes                 " + std::to_string(report.freezes) + "\n";
+  return out;
+}
+
+Json bench_json(const BenchResult& result) {
+  Json curves = Json::array(), floor = Json::array();
+  for (const CurvePoint& p : result.curves) {
+    const Json settings = p.mode == "paper" ? Json{{"alpha", p.paper.alpha},
+                                                   {"w1", p.paper.w1},
+                                                   {"cap", p.paper.cap},
+                                                   {"free_steps", p.paper.free_steps}}
+                                            : Json{{"alpha", p.joint.alpha},
+                                                   {"cap", p.joint.cap},
+                                                   {"turn_w1", p.joint.turn_w1},
+                                                   {"cruise_w1", p.joint.cruise_w1},
+                                                   {"change_rate", p.joint.change_rate},
+                                                   {"speed_weight", p.joint.speed_weight},
+                                                   {"play_through", p.joint.play_through},
+                                                   {"skip_price", p.joint.skip_price},
+                                                   {"bend_deg", p.joint.bend_deg},
+                                                   {"exit_deg", p.joint.exit_deg}};
+    curves.push_back(
+        {{"mode", p.mode},
+         {"settings", settings},
+         {"default", p.is_default},
+         {"frames_to_turn", {{"median", p.turn_median}, {"p95", p.turn_p95}}},
+         {"first_change", {{"median", p.first_change_median}, {"p95", p.first_change_p95}}},
+         {"turns", p.turns},
+         {"unfinished", p.unfinished},
+         {"transition_cost", {{"mean", p.cost_mean}, {"p99", p.cost_p99}, {"max", p.cost_max}}},
+         {"jumps_per_second", p.jumps_per_second},
+         {"tracking_error_deg", {{"mean", p.tracking_mean}, {"worst", p.tracking_worst}}},
+         {"speed_ratio", p.speed_ratio},
+         {"travel_share", {{"fast", p.share_fast}, {"slow", p.share_slow}}}});
+  }
+  for (const Reach& r : result.floor) {
+    Json entry = {{"cap", r.cap}, {"median", nullptr}, {"connected", r.connected}};
+    if (std::isfinite(r.floor)) entry["median"] = r.floor;
+    floor.push_back(entry);
+  }
+  return {{"curves", curves}, {"floor", floor}};
+}
+
+std::string bench_text(const BenchResult& result, double fps) {
+  std::string out =
+      "                                      frames to turn    transition cost   jumps   angle off "
+      " "
+      "speed  share along\n"
+      "  mode        cap    w1 (turn/cruise) median p95 unfin.  mean  99 %        a sec  mean "
+      "worst "
+      " kept   fast slow\n";
+  char line[300];
+  for (const CurvePoint& p : result.curves) {
+    const bool paper = p.mode == "paper";
+    char weight[40];
+    if (paper)
+      std::snprintf(weight, sizeof weight, "%g", p.paper.w1);
+    else
+      std::snprintf(weight, sizeof weight, "%g/%.3g", p.joint.turn_w1, p.joint.cruise_w1);
+    std::snprintf(line, sizeof line,
+                  "%s %-11s %-5.3g  %-16s %6.1f %4.0f %5d  %.4f %.3f    %6.2f %6.1f %5.1f  %5.2f  "
+                  "%5.2f %.2f\n",
+                  p.is_default ? "*" : " ", p.mode.c_str(), paper ? p.paper.cap : p.joint.cap,
+                  weight, p.turn_median, p.turn_p95, p.unfinished, p.cost_mean, p.cost_p99,
+                  p.jumps_per_second, p.tracking_mean, p.tracking_worst, p.speed_ratio,
+                  p.share_fast, p.share_slow);
+    out += line;
+  }
+  out += "  * as the sprite was built; one frame is " + fixed_text(1000 / fps, 1) + " ms\n\n";
+  out +=
+      "  cap    frames to the first sample that goes there (median)   moving samples connected\n";
+  for (const Reach& r : result.floor) {
+    std::snprintf(line, sizeof line, "  %-5.2f  %-10s %55.1f %%\n", r.cap,
+                  std::isfinite(r.floor) ? fixed_text(r.floor, 0).c_str() : "never",
+                  100 * r.connected);
+    out += line;
+  }
   return out;
 }
 

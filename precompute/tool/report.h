@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "control/bench.h"
 #include "control/response.h"
 #include "tool/stages.h"
 #include "vsprite/pack.h"
@@ -24,6 +25,8 @@ Json info_json(const Sprite& sprite, const PackInfo& info);
 
 std::string steer_text(const SteerReport& report, double fps);
 Json steer_json(const SteerReport& report);
+std::string bench_text(const BenchResult& result, double fps);
+Json bench_json(const BenchResult& result);
 std::string trace_csv(const std::vector<TraceRow>& rows);
 
 /// "8.2 MB", "912 bytes".

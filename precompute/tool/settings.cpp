@@ -198,12 +198,43 @@ void add_stage_options(Row& t) {
           "cheapest transitions kept out of a sample", kTransitions);
   t.whole("min-back", "SAMPLES", &Settings::min_back, 1, 1000,
           "shortest jump backwards inside a clip, samples", kTransitions);
-  t.real("alpha", "A", &Settings::alpha, 0, 1, true, "discount of the future, per sample", kSolve);
-  t.real("w1", "W", &Settings::w1, 0, 1000, false, "price of a radian off the command", kSolve);
+  t.text("directions", "N", &Settings::directions,
+         "headings to serve; auto = those of the eight that the film holds", kSolve,
+         "auto|2|4|8|16|32");
+  t.text("solver", "METHOD", &Settings::solver,
+         "mode paper: policy iteration, or the paper's own iteration (slow, the same tables)",
+         kSolve, "policy|iterate");
+  t.real("alpha", "A", &Settings::alpha, 0, 1, true,
+         "mode paper: discount of the future, per sample", kSolve);
+  t.real("w1", "W", &Settings::w1, 0, 1000, false,
+         "mode paper: price of a radian off the command; 0 = from the film", kSolve);
   t.real("cap", "T", &Settings::cap, 0.001, 1000, false,
-         "dearer transitions are not used; 1 = the classifier's threshold", kSolve);
+         "mode paper: dearer transitions are not used; 1 = the classifier's threshold", kSolve);
   t.whole("free-steps", "K", &Settings::free_steps, 0, 10,
-          "transitions without a motion constraint after a change of direction", kSolve);
+          "mode paper: transitions without a motion constraint after a change of direction",
+          kSolve);
+  t.real("response-alpha", "A", &Settings::response_alpha, 0, 1, true,
+         "mode responsive: discount of the future, per sample", kSolve);
+  t.real("response-cap", "T", &Settings::response_cap, 0, 1000, false,
+         "mode responsive: dearer transitions are not used; 0 = the lowest that still turns",
+         kSolve);
+  t.real("turn-w1", "W", &Settings::turn_w1, 0, 1000, false,
+         "mode responsive: price of a radian off the command while turning", kSolve);
+  t.real("cruise-w1", "W", &Settings::cruise_w1, 0, 1000, false,
+         "mode responsive: the same once it goes that way", kSolve);
+  t.real("exit", "DEG", &Settings::exit_angle, 1, 90, false,
+         "mode responsive: a sample so near the command has turned, degrees", kSolve);
+  t.real("change-rate", "RATE", &Settings::change_rate, 0, 10, false,
+         "mode responsive: changes of command to expect, a second; 0 = expect none", kSolve);
+  t.real("speed-weight", "RAD", &Settings::speed_weight, 0, 100, false,
+         "mode responsive: price of slowness, in radians off the command", kSolve);
+  t.text("play-through", "WHETHER", &Settings::play_through,
+         "mode responsive: the next sample may be left out (double rate)", kSolve, "on|off");
+  t.real("skip-price", "X", &Settings::skip_price, 0, 100, false,
+         "mode responsive: price of that, in transition costs of its own", kSolve);
+  t.real("bend", "DEG", &Settings::bend, 0, 45, false,
+         "mode responsive: the path may differ so much from the picture's heading, degrees",
+         kSolve);
 }
 
 void add_label_options(Row& t) {
@@ -226,9 +257,13 @@ void add_use_options(Row& t) {
          " steer play ");
   t.whole("frames", "N", &Settings::frames, 0, 1000000000,
           "ticks to run; 0 = 12 s (steer), for ever (play, label)", " steer play label ");
-  t.text("mode", "MODE", &Settings::mode, "which solved tables steer", " steer ",
+  t.text("mode", "MODE", &Settings::mode,
+         "which solved tables; default: the pack's own (steer), paper (dump)", " steer dump play ",
          "paper|responsive");
   t.text("trace", "FILE", &Settings::trace, "one line a tick, as CSV", " steer ");
+  t.flag("bench", &Settings::bench,
+         "all modes over a grid of settings, ten random runs each; -o FILE.svg draws the curves",
+         " steer ");
   t.flag("headless", &Settings::headless, "no window: play the keys and end", " play label ");
   t.text("record", "FILE", &Settings::record, "film of the run (.mp4) or last picture (.png)",
          " play label ");
@@ -241,7 +276,8 @@ void add_use_options(Row& t) {
 }
 
 void add_common_options(Row& t) {
-  t.text("output", "FILE", &Settings::output, "the file to write", " segment build pack dump play ")
+  t.text("output", "FILE", &Settings::output, "the file to write",
+         " segment build pack dump play steer ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",

@@ -46,6 +46,18 @@ struct Settings {
   double w1 = 0.6;
   double cap = 0.8;
   int free_steps = 5;
+  std::string solver = "policy";
+  std::string directions = "auto";
+  double response_alpha = 0.985;
+  double response_cap = 0;  ///< 0: by reachability
+  double cruise_w1 = 0.12;
+  double turn_w1 = 0.8;
+  double change_rate = 0.35;  ///< a second
+  double speed_weight = 0.3;
+  std::string play_through = "on";
+  double skip_price = 1;
+  double bend = 15;
+  double exit_angle = 25;
 
   // Looking before building.
   int preview = 0;  ///< frames on the contact sheet; 0: none is asked for
@@ -53,9 +65,10 @@ struct Settings {
 
   // Playing it.
   std::string keys;
-  int frames = 0;  ///< 0: the verb's own default
-  std::string mode = "paper";
+  int frames = 0;    ///< 0: the verb's own default
+  std::string mode;  ///< empty: the verb's own default
   std::string trace;
+  bool bench = false;
   std::string record;
   bool headless = false;
 

@@ -120,10 +120,11 @@ Result<std::string> train_output(StageRun& run) { return run.project.file_sum("c
 Result<StageKey> transitions_key(StageRun& run) {
   const auto present = run.project.classifier();  // also tells a damaged file from an absent one
   if (!present) return present.error();
-  return key_of(
-      run, "transitions",
-      {{"max-per-sample", run.settings.max_per_sample}, {"min-back", run.settings.min_back}},
-      {"sprites", "classifier.toml"});
+  return key_of(run, "transitions",
+                {{"max-per-sample", run.settings.max_per_sample},
+                 {"min-back", run.settings.min_back},
+                 {"format", kTableVersion}},
+                {"sprites", "classifier.toml"});
 }
 
 Result<Json> find_transitions(StageRun& run) {
@@ -144,6 +145,7 @@ Result<Json> find_transitions(StageRun& run) {
   auto costs = make_cost_table(set, file.pairs, config, stats);
   if (!costs) return Error{costs.error().code, run.project.folder() + ": " + costs.error().message};
   file.costs = std::move(*costs);
+  file.skip_costs = skip_costs(set, *classifier, file.costs.kept);
   if (auto wrote = write_file(run.project.path("transitions.bin"), format_transitions(file));
       !wrote)
     return wrote.error();
@@ -162,45 +164,14 @@ Result<std::string> transitions_output(StageRun& run) {
   return run.project.file_sum("transitions.bin");
 }
 
-// ---- solve ----
+// ---- solve (control.cpp) ----
 
 Result<StageKey> solve_key(StageRun& run) {
-  const Settings& s = run.settings;
   const auto samples = run.project.samples();
   if (!samples) return samples.error();
   const auto present = run.project.transitions(samples->size());
   if (!present) return present.error();
-  return key_of(run, "solve",
-                {{"alpha", s.alpha}, {"w1", s.w1}, {"cap", s.cap}, {"free-steps", s.free_steps}},
-                {"samples.csv", "transitions.bin"});
-}
-
-Result<Json> solve_tables(StageRun& run) {
-  const auto rows = run.project.samples();
-  if (!rows) return rows.error();
-  const auto file = run.project.transitions(rows->size());
-  if (!file) return file.error();
-  std::vector<Vec2> velocities;
-  for (const SampleRow& row : *rows)
-    velocities.push_back({static_cast<float>(row.velocity_x), static_cast<float>(row.velocity_y)});
-  ValueFile values;
-  values.config = {.alpha = run.settings.alpha,
-                   .w1 = run.settings.w1,
-                   .cap = run.settings.cap,
-                   .free_steps = run.settings.free_steps};
-  auto solution = solve(file->costs, velocities, file->v0, values.config);
-  if (!solution) return solution.error();
-  values.solution = std::move(*solution);
-  values.config.w1 = values.solution.w1;  // the setting 0 stands for a rule
-  if (auto wrote = write_file(run.project.path("values.bin"), format_values(values)); !wrote)
-    return wrote.error();
-  return Json{{"alpha", values.config.alpha},
-              {"w1", values.config.w1},
-              {"cap", values.config.cap},
-              {"free_steps", values.config.free_steps},
-              {"tables", kDirectionCount * values.solution.stages},
-              {"residual", values.solution.residual},
-              {"error_bound", values.solution.error_bound}};
+  return key_of(run, "solve", solve_settings(run.settings), {"samples.csv", "transitions.bin"});
 }
 
 Result<std::string> solve_output(StageRun& run) { return run.project.file_sum("values.bin"); }

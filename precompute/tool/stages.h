@@ -58,6 +58,11 @@ inline constexpr int kDraftStride = 2, kDraftSize = 128;
 /// settings.
 Result<Json> segment_film(StageRun& run, const std::string& origin);
 
+/// What the stage `solve` depends on, beside its inputs.
+Json solve_settings(const Settings& settings);
+/// T and velocities -> values.bin: both modes, and which directions each serves (control.cpp).
+Result<Json> solve_tables(StageRun& run);
+
 /// T, V and pictures -> the pack (build_pack.h), measured on the way.
 Result<Json> write_pack(StageRun& run);
 

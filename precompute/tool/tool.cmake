@@ -8,6 +8,7 @@ pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash sqlite3)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
 target_sources(vsprite_precompute PRIVATE
   tool/build_pack.cpp
+  tool/control.cpp
   tool/files.cpp
   tool/keyed.cpp
   tool/label_store.cpp

@@ -22,7 +22,6 @@ namespace {
 constexpr std::size_t kColumnCount = 17;
 constexpr std::string_view kTransitionMagic = "VSPTRANS";
 constexpr std::string_view kValueMagic = "VSPVALUE";
-constexpr std::uint32_t kTableVersion = 1;
 
 // ---- samples.csv ----
 
@@ -182,8 +181,12 @@ bool costs_agree(const TransitionFile& file, std::size_t samples) {
   if (costs.row_start.front() != 0 || costs.row_start.back() != costs.transitions.size())
     return false;
   if (!std::is_sorted(costs.row_start.begin(), costs.row_start.end())) return false;
-  const auto fits = [samples](const Transition& t) { return t.to < samples && t.cost >= 0; };
+  const auto fits = [samples](const Transition& t) {
+    return t.to < samples && t.cost >= 0 && std::isfinite(t.cost);
+  };
+  const auto is_cost = [](float cost) { return cost >= 0; };
   return std::all_of(costs.transitions.begin(), costs.transitions.end(), fits) &&
+         std::all_of(file.skip_costs.begin(), file.skip_costs.end(), is_cost) &&
          std::all_of(file.pairs.begin(), file.pairs.end(),
                      [samples](const PairDistance& p) { return p.i < p.j && p.j < samples; });
 }
@@ -327,6 +330,7 @@ std::string format_transitions(const TransitionFile& file) {
   writer.put_array(std::span(file.costs.transitions));
   writer.put_array(std::span(file.costs.kept));
   writer.put_array(std::span(file.pairs));
+  writer.put_array(std::span(file.skip_costs));
   return end_table(std::move(writer));
 }
 
@@ -343,24 +347,47 @@ Result<TransitionFile> parse_transitions(const std::string& bytes, const std::st
       !reader.get_array(file.costs.row_start, count + 1) ||
       !reader.get_array(file.costs.transitions, transitions) ||
       !reader.get_array(file.costs.kept, count) || !reader.get_array(file.pairs, pairs) ||
-      reader.left() != 0 || !costs_agree(file, samples))
+      !reader.get_array(file.skip_costs, count) || reader.left() != 0 ||
+      !costs_agree(file, samples))
     return damaged(path, "its counts contradict its size", "transitions");
   return file;
 }
 
+namespace {
+
+// The settings of a mode, one after the other, for reading and writing alike.
+template <class Mode, class Visit>
+bool visit_settings(Mode& m, Visit&& visit) {
+  return visit(m.alpha) && visit(m.w1) && visit(m.turn_w1) && visit(m.cap) &&
+         visit(m.change_rate) && visit(m.speed_weight) && visit(m.skip_price) &&
+         visit(m.exit_angle) && visit(m.dead_angle) && visit(m.bend_cos) && visit(m.bend_sin) &&
+         visit(m.stages) && visit(m.headings) && visit(m.power) && visit(m.table_of) &&
+         visit(m.served) && visit(m.served_headings) && visit(m.residual) && visit(m.error_bound);
+}
+
+}  // namespace
+
+const Solution* ValueFile::find(const std::string& name) const {
+  for (const Solution& solution : modes)
+    if (solution.mode.name == name) return &solution;
+  return nullptr;
+}
+
 std::string format_values(const ValueFile& file) {
-  const Solution& solution = file.solution;
-  const std::size_t tables = static_cast<std::size_t>(kDirectionCount * solution.stages);
   ByteWriter writer = begin_table(kValueMagic);
-  writer.put(std::uint64_t{solution.values.size() / tables});
-  writer.put(static_cast<std::uint64_t>(solution.stages));
-  writer.put(file.config.alpha);
-  writer.put(file.config.w1);
-  writer.put(file.config.cap);
-  writer.put(solution.residual);
-  writer.put(solution.error_bound);
-  writer.put_array(std::span(solution.values));
-  writer.put_array(std::span(solution.next));
+  const ControlMode& first = file.modes.front().mode;
+  writer.put(std::uint64_t{first.next.size() / first.tables()});
+  writer.put(std::uint64_t{file.modes.size()});
+  for (const Solution& solution : file.modes) {
+    const ControlMode& mode = solution.mode;
+    writer.put(static_cast<std::uint32_t>(mode.by_state) |
+               static_cast<std::uint32_t>(mode.plays_through) << 1);
+    visit_settings(mode, [&](const auto& value) { return writer.put(value), true; });
+    writer.put_array(std::span(mode.next));
+    writer.put_array(std::span(mode.go));
+    writer.put_array(std::span(solution.values));
+    writer.put_array(std::span(mode.arrived));
+  }
   return end_table(std::move(writer));
 }
 
@@ -369,23 +396,33 @@ Result<ValueFile> parse_values(const std::string& bytes, const std::string& path
   const auto body = open_table(bytes, kValueMagic, path, "solve");
   if (!body) return body.error();
   ByteReader reader(*body);
-  std::uint64_t count = 0, stages = 0;
+  std::uint64_t count = 0, modes = 0;
   ValueFile file;
   if (reader.get(count) && count != samples) return wrong_count(path, count, samples, "solve");
-  if (!reader.get(stages) || stages < 1 || stages > 11)
-    return damaged(path, "it names " + std::to_string(stages) + " stages where 1 to 11 are due",
+  if (!reader.get(modes) || modes < 1 || modes > 16)
+    return damaged(path, "it names " + std::to_string(modes) + " modes where 1 to 16 are due",
                    "solve");
-  const std::uint64_t cells = count * stages * kDirectionCount;
-  if (!reader.get(file.config.alpha) || !reader.get(file.config.w1) ||
-      !reader.get(file.config.cap) || !reader.get(file.solution.residual) ||
-      !reader.get(file.solution.error_bound) || !reader.get_array(file.solution.values, cells) ||
-      !reader.get_array(file.solution.next, cells) || reader.left() != 0)
-    return damaged(path, "its counts contradict its size", "solve");
   const auto fits = [samples](std::uint32_t to) { return to < samples || to == kNoSample; };
-  if (!std::all_of(file.solution.next.begin(), file.solution.next.end(), fits))
-    return damaged(path, "it names a sample that does not exist", "solve");
-  file.solution.stages = static_cast<int>(stages);
-  file.config.free_steps = file.solution.stages - 1;
+  for (std::uint64_t k = 0; k < modes; ++k) {
+    Solution solution;
+    ControlMode& mode = solution.mode;
+    std::uint32_t flags = 0;
+    const bool read =
+        reader.get(flags) && visit_settings(mode, [&](auto& value) { return reader.get(value); });
+    const bool sound = read && flags < 4 && mode.headings <= kMaxHeadings && mode.stages <= 256;
+    const std::uint64_t cells = sound ? mode.tables() * count : 0;
+    if (!sound || !reader.get_array(mode.next, cells) || !reader.get_array(mode.go, cells) ||
+        !reader.get_array(solution.values, cells) ||
+        !reader.get_array(mode.arrived, (flags & 1u) != 0 ? count : 0))
+      return damaged(path, "its counts contradict its size", "solve");
+    if (!std::all_of(mode.next.begin(), mode.next.end(), fits))
+      return damaged(path, "it names a sample that does not exist", "solve");
+    mode.by_state = (flags & 1u) != 0;
+    mode.plays_through = (flags & 2u) != 0;
+    mode.name = mode.by_state ? "responsive" : "paper";
+    file.modes.push_back(std::move(solution));
+  }
+  if (reader.left() != 0) return damaged(path, "its counts contradict its size", "solve");
   return file;
 }
 

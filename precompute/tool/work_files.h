@@ -21,6 +21,9 @@
 
 namespace vsprite {
 
+/// Of transitions.bin and values.bin. 2: skip costs; values of several modes.
+inline constexpr std::uint32_t kTableVersion = 2;
+
 inline constexpr const char* kSampleColumns =
     "sample,clip,frame,left,top,width,height,anchor_x,anchor_y,velocity_x,velocity_y,area,source,"
     "tag,"
@@ -37,22 +40,26 @@ Result<Classifier> parse_classifier(const std::string& text, const std::string& 
                                     double* moved = nullptr);
 
 /// transitions.bin: u64 samples, u64 transitions, u64 pairs; f64 v0, px/s; row_start u32[samples +
-/// 1]; (u32 to, f32 cost)[transitions]; u8 kept[samples]; (u32 i, u32 j, f32 distance)[pairs].
+/// 1]; (u32 to, f32 cost)[transitions]; u8 kept[samples]; (u32 i, u32 j, f32 distance)[pairs];
+/// f32 skip[samples].
 struct TransitionFile {
   CostTable costs;
   std::vector<PairDistance> pairs;  ///< accepted, ascending
   double v0 = 0;                    ///< film px/s: below this speed a heading means little
+  std::vector<float> skip_costs;    ///< T of leaving the next sample out; or infinity
 };
 std::string format_transitions(const TransitionFile& file);
 /// `samples`: as many as samples.csv has. Errors: CorruptData.
 Result<TransitionFile> parse_transitions(const std::string& bytes, const std::string& path,
                                          std::size_t samples);
 
-/// values.bin: u64 samples, u64 stages; f64 alpha, w1, cap, residual, error_bound;
-/// values f32[10][stages][samples]; next u32[10][stages][samples].
+/// values.bin: u64 samples, u64 modes; a mode: its settings in the order of ControlMode, then next
+/// u32, go f32 and values f32, (tables, samples) each, and where it is left by state arrived
+/// u32[samples].
 struct ValueFile {
-  SolveConfig config;
-  Solution solution;
+  std::vector<Solution> modes;  ///< the first is the default
+  /// Pre: it holds the mode.
+  const Solution* find(const std::string& name) const;
 };
 std::string format_values(const ValueFile& file);
 Result<ValueFile> parse_values(const std::string& bytes, const std::string& path,

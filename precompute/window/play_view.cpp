@@ -11,6 +11,7 @@
 #include <string>
 
 #include "shaders/play.h"
+#include "vsprite/policy.h"
 
 namespace vsprite::window {
 namespace {
@@ -112,7 +113,7 @@ std::string overlay_text(Session& session, const Sprite& sprite, const FrameCach
   const SpriteData& data = sprite.data();
   const Sample& sample = data.samples[s.actor.sample];
   const ControlMode& mode = data.modes[s.actor.mode];
-  const auto followed = static_cast<Direction>(s.actor.table / mode.stages);
+  const auto followed = direction_of(mode, s.actor.table / mode.stages);
   const float speed =
       std::sqrt(sample.velocity.x * sample.velocity.x + sample.velocity.y * sample.velocity.y);
   const std::string tag = data.tags[sample.tag];

@@ -75,7 +75,7 @@ grep -qE '"states_hash": "[0-9a-f]{16}"' stdout || fail "states_hash is not 16 h
 mv stdout once
 expect 0 vsprite steer c.vsp --keys "0 right; 2 down" --frames 100 --json
 diff -q once stdout >/dev/null || fail "the same keys give other states"
-expect 3 vsprite steer c.vsp --mode responsive
+expect 2 vsprite steer c.vsp --mode sideways
 for what in samples labels features distances transitions values; do
   expect 0 vsprite dump --work c.work --what $what --format npy -o d.npy
   expect 0 vsprite dump c.vsp --what $what --format csv -o d.csv --json

@@ -43,7 +43,7 @@ TEST(Allocation, ATickTakesNoMemory) {
   premultiply(picture);
   Image canvas = make_checkerboard(64, 64);
   const long before = allocations;
-  Actor actor = make_actor(sprite, {32, 32});
+  Actor actor = make_actor(sprite, {32, 32}, 0, 1);
   StateHash hash;
   for (std::uint64_t tick = 0; tick < 300; ++tick) {
     if (tick < 200) {
@@ -51,7 +51,11 @@ TEST(Allocation, ATickTakesNoMemory) {
     } else {
       set_target(sprite, actor, {500, -80}, 10);
     }
-    step(sprite, actor);
+    if (tick % 3 == 0) {
+      step(sprite, actor, StepWish{.slack = 0.3f});
+    } else {
+      step(sprite, actor);
+    }
     hash.add(actor);
     draw_sample(canvas, picture, sprite.samples()[actor.sample],
                 draw_position(sprite, actor, 0.5f));

@@ -22,11 +22,13 @@ using testing::put_at;
 
 // Field offsets of PACK.md.
 constexpr std::size_t kEntry0 = 64, kEntry1 = 96, kEntry2 = 128;
-constexpr std::size_t sample_at(std::size_t i) { return 56 * i; }
+constexpr std::size_t sample_at(std::size_t i) { return 60 * i; }
 constexpr std::size_t frame_at(std::size_t i) { return 24 * i; }
 const std::size_t kRows = 8;
 const std::size_t kTransitions = 8 + 4 * (testing::kTinySamples + 1);
-constexpr std::size_t kNext = 64 + 8;  // "paper", padded to 8
+constexpr std::size_t kModeFixed = 128;
+constexpr std::size_t kNext = kModeFixed + 8;  // "paper", padded to 8
+constexpr std::size_t kGo = kNext + std::size_t{4} * 40 * testing::kTinySamples;
 constexpr std::uint32_t kHuge = 0xFFFFFFF0u;
 
 using EditBytes = std::function<void(ByteVector&)>;
@@ -82,8 +84,8 @@ std::vector<Hostile> header_packs() {
   return {
       {"too-short", "63 bytes", damage_header([](auto& b) { b.resize(63); })},
       {"bad-magic", "not a pack", damage_header([](auto& b) { b[4] = '\n'; })},
-      {"version", "pack version 0.2", damage_header([](auto& b) { b[10] = 2; })},
-      {"version", "pack version 256.1", damage_header([](auto& b) {
+      {"version", "pack version 0.1", damage_header([](auto& b) { b[10] = 1; })},
+      {"version", "pack version 256.2", damage_header([](auto& b) {
          std::swap(b[8], b[9]);
          b[9] = 1;
        })},
@@ -176,7 +178,7 @@ std::vector<Hostile> meta_packs() {
          p["SAMP"].bytes.clear();
          p["TRAN"].bytes.assign(12, 0);
          p["CTRL"].bytes.resize(kNext);
-         p.parts[4].bytes.resize(64 + 12);
+         p.parts[4].bytes.resize(kModeFixed + 12);
        })},
   };
 }
@@ -193,6 +195,10 @@ std::vector<Hostile> sample_packs() {
       {"duration", "sample 3", damage_section(set<std::uint16_t>("SAMP", sample_at(3) + 36, 0))},
       {"tag-index", "tag 2 of 2", damage_section(set<std::uint16_t>("SAMP", sample_at(3) + 38, 2))},
       {"mirror-index", "sample 103 of 103", damage_section(set("SAMP", sample_at(3) + 48, 103u))},
+      {"skip-cost", "not >= 0", damage_section(set("SAMP", sample_at(3) + 56, -0.5f))},
+      {"skip-cost", "not >= 0", damage_section(set("SAMP", sample_at(3) + 56, nan))},
+      {"skip-cost", "same clip", damage_section(set("SAMP", sample_at(12) + 56, 0.5f))},
+      {"skip-cost", "same clip", damage_section(set("SAMP", sample_at(101) + 56, 0.5f))},
       {"kept-flag", "kept is 2", damage_section(set("SAMP", sample_at(3) + 52, 2u))},
   };
 }
@@ -217,16 +223,16 @@ std::vector<Hostile> transition_packs() {
 std::vector<Hostile> mode_packs() {
   const float nan = std::nanf("");
   return {
-      {"ctrl-size", "need 64 bytes", damage_section([](auto& p) { p["CTRL"].bytes.resize(63); })},
-      {"ctrl-size", "entries of next", damage_section([](auto& p) { p["CTRL"].bytes.pop_back(); })},
-      {"ctrl-size", "entries of next", damage_section(set("CTRL", 12, kHuge))},
+      {"ctrl-size", "need 128 bytes", damage_section([](auto& p) { p["CTRL"].bytes.resize(127); })},
+      {"ctrl-size", "40 tables need", damage_section([](auto& p) { p["CTRL"].bytes.pop_back(); })},
+      {"stages", "4294967280 stages", damage_section(set("CTRL", 12, kHuge))},
       {"text-size", "a name of 4294967280", damage_section(set("CTRL", 36, kHuge))},
-      {"padding", "padding of the name", damage_section(set<char>("CTRL", 64 + 7, 'x'))},
-      {"reserved", "reserved bytes", damage_section(set<char>("CTRL", 63, 1))},
+      {"padding", "padding of the name", damage_section(set<char>("CTRL", kModeFixed + 7, 'x'))},
+      {"reserved", "reserved bytes", damage_section(set<char>("CTRL", 127, 1))},
       {"mode-name", "has no name", damage_section([](auto& p) {
          ByteVector& mode = p["CTRL"].bytes;
          put_at(mode, 36, 0u);
-         mode.erase(mode.begin() + 64, mode.begin() + kNext);
+         mode.erase(mode.begin() + kModeFixed, mode.begin() + kNext);
        })},
       {"alpha", "mode 0: alpha", damage_section(set("CTRL", 0, 1.0f))},
       {"alpha", "mode 0: alpha", damage_section(set("CTRL", 0, nan))},
@@ -238,6 +244,35 @@ std::vector<Hostile> mode_packs() {
        })},
       {"residual", "mode 0: residual",
        damage_section(set("CTRL", 16, std::numeric_limits<double>::quiet_NaN()))},
+      {"stages", "26 stages of 8 headings", damage_section(set("CTRL", 12, 26u))},
+      {"switching", "flags 4", damage_section(set<std::uint8_t>("CTRL", 50, 4))},
+      {"switching", "4 stages that are left by state", damage_section([](auto& p) {
+         put_at(p["CTRL"].bytes, 50, std::uint8_t{1});
+         p["CTRL"].bytes.resize(p["CTRL"].bytes.size() + 4 * testing::kTinySamples);
+       })},
+      {"power", "power 3", damage_section(set<std::uint8_t>("CTRL", 51, 3))},
+      {"headings", "9 headings", damage_section(set("CTRL", 52, 9u))},
+      {"headings", "4294967280 headings", damage_section(set("CTRL", 52, kHuge))},
+      {"served", "headings beyond the last", damage_section(set("CTRL", 56, 1u << 8))},
+      {"mode-setting", "not a finite", damage_section(set("CTRL", 60, -1.0f))},
+      {"mode-setting", "not a finite", damage_section(set("CTRL", 64, 1.0f))},
+      {"mode-setting", "not a finite", damage_section(set("CTRL", 68, nan))},
+      {"mode-setting", "not a finite", damage_section(set("CTRL", 72, nan))},
+      {"mode-setting", "not a finite", damage_section(set("CTRL", 76, -1.0f))},
+      {"mode-setting", "not a finite", damage_section(set("CTRL", 80, nan))},
+      {"bend", "not a cosine", damage_section(set("CTRL", 84, 1 << 29))},
+      {"bend", "not a cosine", damage_section(set("CTRL", 84, -(1 << 30)))},
+      {"bend", "not a cosine", damage_section(set("CTRL", 88, 1 << 20))},
+      {"go", "mode 0: table 0, sample 1", damage_section(set("CTRL", kGo + 4, -1.0f))},
+      {"go", "mode 0: table 0, sample 0", damage_section(set("CTRL", kGo, 1.0f))},
+      {"go", "mode 0: table 0, sample 3", damage_section(set("CTRL", kGo + 12, nan))},
+      {"arrived", "sample 2 goes along", damage_section([](auto& p) {
+         ByteVector& responsive = p.parts[4].bytes;
+         put_at(responsive, responsive.size() - 4 * (testing::kTinySamples - 2), 1u << 8);
+       })},
+      {"next-transition", "no such transition", damage_section([](auto& p) {
+         p.parts[4].bytes[50] = 1;  // a mode that plays through is told not to
+       })},
       {"served", "beyond the tenth", damage_section(set("CTRL", 32, 1u << 10))},
       {"table-of", "direction 10 of 10", damage_section(set<std::uint8_t>("CTRL", 40 + 7, 10))},
       {"next-index", "next is sample 103", damage_section(set("CTRL", kNext + 4, 103u))},

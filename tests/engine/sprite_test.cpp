@@ -37,13 +37,14 @@ TEST(Sprite, TheFilmsOwnContinuationCostsNothing) {
   data.samples[1].kept = 1;
   data.samples.resize(2);
   data.samples[0] = data.samples[1];
+  for (Sample& s : data.samples) s.skip_cost = HUGE_VALF;
   data.row_start = {0, 0, 1};
   data.transitions = {{0, 0.25f}};
   for (ControlMode& mode : data.modes) {
     mode.next.clear();
-    for (std::uint32_t t = 0; t < kDirectionCount * mode.stages; ++t) {
-      mode.next.insert(mode.next.end(), {1, 0});
-    }
+    for (std::size_t t = 0; t < mode.tables(); ++t) mode.next.insert(mode.next.end(), {1, 0});
+    mode.go.assign(mode.next.size(), 1);
+    mode.arrived.resize(mode.by_state ? 2 : 0);
   }
   const auto sprite = make_sprite(data);
   ASSERT_TRUE(sprite) << sprite.error().message;
@@ -101,7 +102,7 @@ TEST(Sprite, RefusesDataThatWouldFaultInPlay) {
       {"mode 1: alpha", [](SpriteData& d) { d.modes[1].alpha = 1; }},
       {"mode 0: alpha", [=](SpriteData& d) { d.modes[0].alpha = nan; }},
       {"mode 1: 0 stages", [](SpriteData& d) { d.modes[1].stages = 0; }},
-      {"mode 1: 1030 entries", [](SpriteData& d) { d.modes[1].stages = 2; }},
+      {"mode 0: 4120 entries", [](SpriteData& d) { d.modes[0].stages = 2; }},
       {"mode 0: table 0, sample 0: was not kept", [](SpriteData& d) { d.modes[0].next[0] = 1; }},
       {"mode 0: table 0, sample 1: next is sample 103",
        [](SpriteData& d) { d.modes[0].next[1] = 103; }},

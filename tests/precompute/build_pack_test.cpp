@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace vsprite {
 namespace {
 
@@ -11,7 +13,8 @@ namespace {
 struct Tables {
   FilmFacts film{"walk.mp4", 30000, 1001};
   std::vector<SampleRow> rows;
-  CostTable costs;
+  TransitionFile file;
+  CostTable& costs = file.costs;
   ValueFile values;
   std::vector<int> sides{10, 30, 20, 99};
 
@@ -32,13 +35,16 @@ struct Tables {
     costs.row_start = {0, 1, 2, 3, 3};
     costs.transitions = {{1, 0}, {2, 0}, {0, 0.5f}};
     costs.kept = {1, 1, 1, 0};
-    values.solution.stages = 1;
-    values.config.free_steps = 0;
-    values.solution.values.assign(10 * 4, 1);
-    for (int table = 0; table < 10; ++table)
-      values.solution.next.insert(values.solution.next.end(), {1, 2, 0, kNoSample});
+    Solution solution = detail::empty_solution("paper", 8, 1, 4);
+    for (std::size_t k = 0; k < solution.mode.next.size(); k += 4) {
+      solution.mode.next[k] = 1;
+      solution.mode.next[k + 1] = 2;
+      solution.mode.next[k + 2] = 0;
+    }
+    values.modes.push_back(std::move(solution));
+    file.skip_costs = {0.25f, HUGE_VALF, HUGE_VALF, HUGE_VALF};
   }
-  Result<SpriteData> data() const { return make_sprite_data(film, rows, costs, values, sides); }
+  Result<SpriteData> data() const { return make_sprite_data(film, rows, file, values, sides); }
 };
 
 TEST(BuildPack, LengthsAreInSpritePixels) {
@@ -51,6 +57,7 @@ TEST(BuildPack, LengthsAreInSpritePixels) {
   EXPECT_EQ(sample.height, 10);
   EXPECT_EQ(sample.area, 100);
   EXPECT_EQ(sample.duration, 2);
+  EXPECT_EQ(data->samples[0].skip_cost, 0.25f);
   // 30 px/s at 30000/1001 ticks a second: 1.001 px a tick.
   EXPECT_EQ(sample.step_x, 65602);
   EXPECT_EQ(sample.step_y, -32801);
@@ -82,12 +89,16 @@ TEST(BuildPack, AnUnservedDirectionSaysWhy) {
   DirectionReport right, down;
   down.direction = Direction::Down;
   EXPECT_NE(unserved_reason(*data, down).find("never moves down"), std::string::npos);
-  EXPECT_NE(unserved_reason(*data, right).find("3 samples move that way"), std::string::npos);
+  EXPECT_NE(unserved_reason(*data, right).find("3 samples move that way, but none for long"),
+            std::string::npos);
+  right.speed = 30;
+  EXPECT_NE(unserved_reason(*data, right).find("no run of them keeps to it"), std::string::npos);
   for (Sample& sample : data->samples) sample.kept = 0;
   EXPECT_NE(unserved_reason(*data, right).find("no smooth jump leads to them"), std::string::npos);
   // 34 px/s is a sway for a subject of 400 px: a tenth of its size a second.
   for (Sample& sample : data->samples) sample.area = 160000;
-  EXPECT_EQ(unserved_reason(*data, right), "nothing in the film moves from its place");
+  EXPECT_EQ(unserved_reason(*data, right),
+            "it only sways: 34 px/s at most, and 100 count as moving");
   right.reachable = true;
   EXPECT_EQ(unserved_reason(*data, right), "");
 }

@@ -38,6 +38,7 @@ TransitionFile table_of_three() {
   file.costs.transitions = {{1, 0.0f}, {2, 0.0f}, {0, 0.5f}};
   file.costs.kept = {1, 1, 1};
   file.pairs = {{0, 2, 0.25f}};
+  file.skip_costs = {0.3f, HUGE_VALF, HUGE_VALF};
   return file;
 }
 

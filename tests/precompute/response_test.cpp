@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "control/bench.h"
 #include "support/tiny_sprite.h"
 
 namespace vsprite {
@@ -64,6 +65,43 @@ TEST(Response, RandomScriptsAreReproducibleAndAlwaysChange) {
     EXPECT_NE(a.entries[k].direction, a.entries[k + 1].direction);
     EXPECT_GE(a.entries[k + 1].tick - a.entries[k].tick, 44u);
   }
+}
+
+TEST(Response, ServingTwoDirectionsNarrowsTheHeadingsToo) {
+  const Sprite sprite = testing::tiny_sprite();
+  ControlMode mode = sprite.data().modes[0];
+  serve(sprite, 0, 1, 0x11, mode);
+  EXPECT_EQ(mode.served, 0x11u);
+  EXPECT_EQ(mode.served_headings, 0x11u);
+  EXPECT_EQ(mode.table_of[1], Direction::Right);
+  EXPECT_EQ(mode.table_of[2], Direction::Rest);
+}
+
+TEST(Bench, MeasuresTheDefaultOfEveryModeAmongOthersTheSameAtEveryThreadCount) {
+  const Sprite sprite = testing::tiny_sprite();
+  BenchConfig config{.seeds = {5}, .seconds = 40};
+  CurvePoint paper, responsive;
+  paper.mode = "paper";
+  responsive.mode = "responsive";
+  config.grid = {paper, responsive};
+  config.jobs = 1;
+  const auto one = measure_curves(sprite, config);
+  config.jobs = 4;
+  const auto four = measure_curves(sprite, config);
+  ASSERT_TRUE(one && four);
+  ASSERT_EQ(one->curves.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const CurvePoint& p = one->curves[k];
+    EXPECT_EQ(p.turn_median, four->curves[k].turn_median);
+    EXPECT_EQ(p.cost_mean, four->curves[k].cost_mean);
+    EXPECT_GT(p.turns, 10);
+    EXPECT_GT(p.turn_median, 2);
+    EXPECT_LT(p.tracking_worst, 23);
+    EXPECT_GT(p.share_slow, p.share_fast);
+  }
+  EXPECT_EQ(one->floor.size(), 15u);
+  const std::string svg = curves_svg(*one, "a < b");
+  EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/dense_control.h"
 #include "vsprite/random.h"
 
 namespace vsprite {
@@ -68,14 +69,57 @@ TEST(Solve, AgreesWithThePapersIterationWithinTheCertifiedBound) {
   const SolveConfig config{.alpha = 0.97, .w1 = 0.5, .cap = 10, .free_steps = 2};
   const auto solution = solve(costs, v, 20, config);
   ASSERT_TRUE(solution);
-  EXPECT_LT(solution->residual, 1e-5);
+  EXPECT_LT(solution->mode.residual, 1e-5);
   for (int d = 0; d < kDirectionCount; ++d) {
     const auto due = iterate(costs, v, 20, static_cast<Direction>(d), 0.5, 0.97);
     const float* values = solution->values.data() + static_cast<std::size_t>(d) * 3 * 61;
     for (std::size_t i = 0; i < 60; ++i) {
-      EXPECT_NEAR(static_cast<double>(values[i]), due[i], solution->error_bound + 1e-9);
+      EXPECT_NEAR(static_cast<double>(values[i]), due[i], solution->mode.error_bound + 1e-9);
     }
     EXPECT_TRUE(std::isinf(values[60]));
+  }
+}
+
+// Equation 2 as a matrix, from F = T: what the tables hold is that F, row by row.
+TEST(Solve, GivesTheFOfThePaperLiterally) {
+  Random random{7};
+  const CostTable costs = random_costs(30, random);
+  const auto v = random_velocities(31, random);
+  const auto solution = solve(costs, v, 20, {.alpha = 0.95, .w1 = 0.4, .cap = 1, .free_steps = 0});
+  ASSERT_TRUE(solution);
+  const auto t = testing::dense_costs(costs, 1);
+  for (std::size_t d = 0; d < kDirectionCount; ++d) {
+    std::vector<double> angle;
+    for (const Vec2& w : v) angle.push_back(direction_cost(w, 20, static_cast<Direction>(d)));
+    const auto f = testing::dense_f(t, angle, 0.4, 0.95);
+    for (std::size_t i = 0; i < 30; ++i) {
+      const std::uint32_t next = solution->mode.next[d * 31 + i];
+      double least = testing::kNever;
+      for (std::size_t j = 0; j < 30; ++j) {
+        least = std::min(least, f[i * 31 + j]);
+        if (!std::isfinite(t[i * 31 + j])) continue;
+        const auto go = static_cast<double>(solution->mode.go[d * 31 + j]);
+        ASSERT_NEAR(f[i * 31 + j], t[i * 31 + j] + go, solution->mode.error_bound + 1e-5);
+      }
+      ASSERT_NEAR(f[i * 31 + next], least, 2 * solution->mode.error_bound + 1e-4);
+    }
+  }
+}
+
+TEST(Solve, ThePapersOwnIterationGivesTheSameTables) {
+  Random random{8};
+  const CostTable costs = random_costs(60, random);
+  const auto v = random_velocities(61, random);
+  SolveConfig config{.alpha = 0.97, .w1 = 0.5, .cap = 1, .free_steps = 3};
+  const auto policy = solve(costs, v, 20, config);
+  config.iterate = true;
+  const auto iterated = solve(costs, v, 20, config);
+  ASSERT_TRUE(policy && iterated);
+  EXPECT_EQ(policy->mode.next, iterated->mode.next);
+  for (std::size_t k = 0; k < policy->values.size(); ++k) {
+    if (std::isfinite(policy->values[k])) {
+      ASSERT_NEAR(policy->values[k], iterated->values[k], policy->mode.error_bound + 1e-5);
+    }
   }
 }
 
@@ -101,7 +145,7 @@ TEST(Solve, GivesTheSameTablesAtEveryThreadCount) {
   const auto one = solve(costs, v, 20, {}, 1), four = solve(costs, v, 20, {}, 4);
   ASSERT_TRUE(one && four);
   EXPECT_EQ(one->values, four->values);
-  EXPECT_EQ(one->next, four->next);
+  EXPECT_EQ(one->mode.next, four->mode.next);
 }
 
 TEST(Solve, NeverEmptiesARowByTheCap) {
@@ -110,8 +154,8 @@ TEST(Solve, NeverEmptiesARowByTheCap) {
   const auto v = random_velocities(51, random);
   const auto solution = solve(costs, v, 20, {.cap = 1e-6});
   ASSERT_TRUE(solution);
-  for (std::size_t k = 0; k < solution->next.size(); ++k) {
-    EXPECT_EQ(solution->next[k] == kNoSample, k % 51 == 50);
+  for (std::size_t k = 0; k < solution->mode.next.size(); ++k) {
+    EXPECT_EQ(solution->mode.next[k] == kNoSample, k % 51 == 50);
   }
 }
 

@@ -100,15 +100,7 @@ SpriteData sprite_data(const Film& film, const CostTable& costs, const Solution&
   }
   data.row_start = costs.row_start;
   data.transitions = costs.transitions;
-  ControlMode mode;
-  mode.name = "paper";
-  mode.stages = static_cast<std::uint32_t>(solution.stages);
-  for (int d = 0; d < kDirectionCount; ++d)
-    mode.table_of[static_cast<std::size_t>(d)] = static_cast<Direction>(d);
-  mode.served = 255;
-  mode.alpha = 0.97f;
-  mode.next = solution.next;
-  data.modes.push_back(mode);
+  data.modes.push_back(solution.mode);
   return data;
 }
 
@@ -244,8 +236,8 @@ int main(int argc, char** argv) {
   start = seconds();
   const auto solution = solve(*costs, velocities, set.v0, config);
   if (!solution) return fail(solution.error());
-  std::printf("w1 %.3f, residual %.2g, bound %.2g (%.2f s)\n", solution->w1, solution->residual,
-              solution->error_bound, seconds() - start);
+  std::printf("w1 %.3f, residual %.2g, bound %.2g (%.2f s)\n", solution->mode.w1,
+              solution->mode.residual, solution->mode.error_bound, seconds() - start);
   auto sprite = make_sprite(sprite_data(film, *costs, *solution));
   if (!sprite) return fail(sprite.error());
   print_sprite(*sprite);

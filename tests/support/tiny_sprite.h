@@ -7,7 +7,8 @@
 // px/s at 30 ticks a second), then a clip of 6 that stands still (tag "idle"). A heading may change
 // to a neighbouring one at every sample (cost 0.3), its clip closes (0.1), and from every phase 0
 // one may come to rest and leave again (0.5). The third sample of each heading is shown for two
-// ticks. Modes: "paper" (K = 5) and "responsive" (no free steps), solved by plain value iteration.
+// ticks. Modes, solved by plain value iteration: "paper" (K = 3), and "responsive" (turning and
+// cruising, playing through at 0.2, bending up to 15 degrees; no model of the player).
 #pragma once
 
 #include <algorithm>
@@ -25,7 +26,8 @@ inline constexpr std::uint32_t kTinyClip = 12;  ///< samples of one heading
 inline constexpr std::uint32_t kTinyIdle = 6;   ///< samples that stand still
 inline constexpr std::uint32_t kTinyFirstIdle = 1 + 8 * kTinyClip;
 inline constexpr std::uint32_t kTinySamples = kTinyFirstIdle + kTinyIdle;
-inline constexpr float kTinySpeed = 60;  ///< px/s
+inline constexpr std::uint32_t kTinyStages = 4;  ///< of the mode "paper": K + 1
+inline constexpr float kTinySpeed = 60;          ///< px/s
 
 /// The sample of a heading (0 right, clockwise) at a phase 0..11.
 inline std::uint32_t tiny_sample(int heading, std::uint32_t phase) {
@@ -57,6 +59,8 @@ inline void add_samples(SpriteData& data) {
     s.clip = heading < 0 ? 9 : static_cast<std::uint32_t>(heading) + 1;
     s.frame = i;
     s.kept = 1;
+    const bool last = heading < 0 ? i + 2 >= kTinySamples : (i - 1) % kTinyClip + 2 >= kTinyClip;
+    if (!last) s.skip_cost = 0.2f;
   }
 }
 
@@ -96,30 +100,45 @@ inline double angle_term(int direction, std::uint32_t sample) {
   return std::min(apart, 8 - apart) * kPi / 4;
 }
 
-/// One sweep of V_i = min_j [T_ij + w1 |angle(v_j, l)| + a before_j]; writes the minimisers to
-/// `next`.
-inline std::vector<double> sweep(const SpriteData& data, const ControlMode& mode, int direction,
-                                 bool constrained, const std::vector<double>& before,
-                                 std::uint32_t* next) {
+/// True if the mode's last stage ends at this sample, for a group of tables.
+inline bool has_turned(const ControlMode& mode, int direction, std::uint32_t sample) {
+  return mode.by_state && (direction >= kCompassCount || tiny_heading(sample) == direction);
+}
+
+/// One table, swept until it stands: V_i = min_j [T_ij + G_j], G_j = w |angle(v_j, l)| + a V'_j.
+/// `behind`: V of the stage that follows, where the sample (or, by the clock, any) ends this one.
+inline std::vector<double> solve_table(const SpriteData& data, ControlMode& mode, int direction,
+                                       std::uint32_t stage, const std::vector<double>& behind) {
+  const bool turning = mode.by_state && stage > 0;
+  const double weight = turning ? double{mode.turn_w1} : stage == 0 ? double{mode.w1} : 0.0;
+  const std::size_t table = std::size_t{static_cast<unsigned>(direction)} * mode.stages + stage;
   std::vector<double> values(kTinySamples, 0);
-  for (std::uint32_t i = 0; i < kTinySamples; ++i) {
-    double best = std::numeric_limits<double>::infinity();
-    next[i] = kNoSample;
-    for (std::uint32_t k = data.row_start[i]; k < data.row_start[i + 1]; ++k) {
-      const Transition& t = data.transitions[k];
-      const double angle = constrained ? mode.w1 * angle_term(direction, t.to) : 0;
-      const double value = t.cost + angle + mode.alpha * before[t.to];
-      if (value < best) {
-        best = value;
-        next[i] = t.to;
-      }
+  for (int round = 0; round < (turning || stage == 0 ? 250 : 1); ++round) {
+    for (std::uint32_t j = 1; j < kTinySamples; ++j) {
+      const bool ends = stage > 0 && (!mode.by_state || has_turned(mode, direction, j));
+      mode.go[table * kTinySamples + j] = static_cast<float>(
+          weight * angle_term(direction, j) + mode.alpha * (ends ? behind[j] : values[j]));
     }
-    if (next[i] != kNoSample) values[i] = best;
+    const float* go = mode.go.data() + table * kTinySamples;
+    for (std::uint32_t i = 1; i < kTinySamples; ++i) {
+      double best = std::numeric_limits<double>::infinity();
+      const auto offer = [&](std::uint32_t to, double price) {
+        if (!(price + double{go[to]} < best)) return;
+        best = price + double{go[to]};
+        mode.next[table * kTinySamples + i] = to;
+      };
+      for (std::uint32_t k = data.row_start[i]; k < data.row_start[i + 1]; ++k)
+        offer(data.transitions[k].to, double{data.transitions[k].cost});
+      const double skip = double{data.samples[i].skip_cost};
+      if (mode.plays_through && std::isfinite(skip)) offer(i + 2, skip);
+      values[i] = best;
+    }
   }
   return values;
 }
 
-inline ControlMode make_mode(const SpriteData& data, const char* name, std::uint32_t stages) {
+inline ControlMode make_mode(const SpriteData& data, const char* name, std::uint32_t stages,
+                             bool by_state) {
   ControlMode mode;
   mode.name = name;
   mode.alpha = 0.9f;
@@ -127,17 +146,23 @@ inline ControlMode make_mode(const SpriteData& data, const char* name, std::uint
   mode.cap = 1;
   mode.stages = stages;
   mode.served = 0xFF;
+  mode.served_headings = 0xFF;
   mode.residual = 1e-9;
   mode.error_bound = 1e-8;
-  mode.next.resize(std::size_t{kDirectionCount} * stages * kTinySamples);
+  mode.next.assign(mode.tables() * kTinySamples, kNoSample);
+  mode.go.assign(mode.tables() * kTinySamples, 0);
+  if (by_state) {
+    mode.by_state = mode.plays_through = true;
+    mode.turn_w1 = 2;
+    mode.bend_cos = 1037154959;  // cos and sin of 15 degrees, times 2^30
+    mode.bend_sin = 277904834;
+    mode.arrived.assign(kTinySamples, 0);
+    for (std::uint32_t i = 1; i < kTinyFirstIdle; ++i) mode.arrived[i] = 1u << tiny_heading(i);
+  }
   for (int d = 0; d < kDirectionCount; ++d) {
     mode.table_of[static_cast<std::size_t>(d)] = static_cast<Direction>(d);
-    std::uint32_t* table = mode.next.data() + static_cast<std::size_t>(d) * stages * kTinySamples;
     std::vector<double> values(kTinySamples, 0);
-    for (int round = 0; round < 250; ++round) values = sweep(data, mode, d, true, values, table);
-    for (std::uint32_t k = 1; k < stages; ++k) {
-      values = sweep(data, mode, d, false, values, table + k * kTinySamples);
-    }
+    for (std::uint32_t k = 0; k < stages; ++k) values = solve_table(data, mode, d, k, values);
   }
   return mode;
 }
@@ -152,8 +177,8 @@ inline SpriteData tiny_sprite_data() {
   data.start_sample = 1;
   tiny::add_samples(data);
   tiny::add_transitions(data);
-  data.modes.push_back(tiny::make_mode(data, "paper", 6));
-  data.modes.push_back(tiny::make_mode(data, "responsive", 1));
+  data.modes.push_back(tiny::make_mode(data, "paper", kTinyStages, false));
+  data.modes.push_back(tiny::make_mode(data, "responsive", 2, true));
   return data;
 }
 

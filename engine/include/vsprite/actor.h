@@ -13,6 +13,12 @@
 //     V^k_i = min_j [T_ij + a V^(k-1)_j],  k = 1..K,   V^0 the constrained table  [NIPS
 //     section 4.1]
 //
+// In the mode "responsive" a change of command enters the turning tables instead, and the first
+// sample that goes the commanded way enters the cruising ones; the next sample may be left out
+// (double rate), and then its displacement is made up for in the following tick, so that no foot
+// slides; and the displacement, never the picture, is turned towards the command by up to
+// ControlMode::bend.
+//
 // Same pack, same seed, same commands: the same states, for ever, on every machine.
 #pragma once
 
@@ -34,13 +40,16 @@ struct Actor {
   std::uint16_t shown = 0;                ///< ticks that `sample` has been shown, 1..duration
   std::uint8_t mode = 0;                  ///< index into SpriteData::modes
   Direction direction = Direction::None;  ///< as commanded
-  std::uint8_t stage = 0;                 ///< free steps left
-  std::uint8_t table = 0;  ///< table that chose `sample`: direction followed * stages + stage
+  std::uint8_t group = 0;                 ///< of the tables that are followed (policy.h)
+  std::uint8_t bent = 0;   ///< group towards which this tick's displacement is turned
+  std::uint8_t stage = 0;  ///< free steps left; or 1 turning, 0 cruising
+  std::uint8_t table = 0;  ///< table that chose `sample`: group * stages + stage
   std::uint8_t jumped =
       0;  ///< 1 if this tick shows a sample that is not its predecessor's successor
-  std::uint8_t padding = 0;  ///< zero, so that states may be compared as bytes
+  std::uint8_t skipped = 0;      ///< 1 if that left out one sample of the clip
+  std::uint8_t padding[2] = {};  ///< zero, so that states may be compared as bytes
 };
-static_assert(std::is_trivially_copyable_v<Actor>);
+static_assert(std::is_trivially_copyable_v<Actor> && sizeof(Actor) == 48);
 
 /// At (x, y), showing the sprite's start sample, direction None.
 Actor make_actor(const Sprite& sprite, Vec2 position = {}, std::uint64_t seed = 0,
@@ -50,12 +59,32 @@ Actor make_actor(const Sprite& sprite, Vec2 position = {}, std::uint64_t seed = 
 /// (ControlMode::table_of), restarts nothing. O(1).
 void set_direction(const Sprite& sprite, Actor& actor, Direction direction) noexcept;
 
-/// Commands the direction that leads to `target`; Rest once within `arrive_radius` px. Hysteresis:
-/// a direction is kept until it is 30 degrees off, rest until 1.5 radii away. Call it every tick.
+/// Commands any direction, as a stick or a mouse gives it: the nearest heading that is served, if
+/// one lies within 60 degrees, else Rest; None for (0, 0). Hysteresis: with eight headings one is
+/// kept until it is 30 degrees off, and in proportion with more.
+void set_heading(const Sprite& sprite, Actor& actor, Vec2 toward) noexcept;
+
+/// Commands the direction that leads to `target`; Rest once within `arrive_radius` px, and
+/// until 1.5 radii away. Call it every tick.
 void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_radius) noexcept;
 
 /// One tick. Never fails, allocates, locks or logs. O(1).
 void step(const Sprite& sprite, Actor& actor) noexcept;
+
+/// What a game may ask of a tick beyond the command: among transitions that are nearly as good as
+/// the best one, another.
+struct StepWish {
+  /// How much dearer counts as nearly as good, in transition costs (1 = the classifier's
+  /// threshold).
+  float slack = 0;
+  /// Room around a position, in any unit: of the near ties the one that leads, ten samples on, to
+  /// the most room is taken. Null: one is drawn from Actor::random, so that a school does not move
+  /// in lockstep; the same seed gives the same states.
+  float (*clearance)(const void* world, Vec2 position) = nullptr;
+  const void* world = nullptr;  ///< handed to `clearance`
+};
+/// One tick, as above. Cost: one row of transitions where a sample ends. Never allocates.
+void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept;
 
 /// Where to draw between two ticks: `fraction` in [0, 1) of a tick after the last step, px.
 Vec2 draw_position(const Sprite& sprite, const Actor& actor, float fraction) noexcept;

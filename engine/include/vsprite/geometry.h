@@ -75,6 +75,14 @@ std::optional<Direction> parse_direction(std::string_view name) noexcept;
 /// The unit vector of a compass direction; (0, 0) for None and Rest.
 Vec2 unit_vector(Direction direction) noexcept;
 
+/// The unit vector of heading h = 0..31, clockwise from right in steps of 11.25 degrees, in 2^-30:
+/// whole numbers, so that what is computed with them is the same everywhere.
+struct UnitVector {
+  std::int32_t x = 0;
+  std::int32_t y = 0;
+};
+UnitVector heading_vector(std::uint32_t h) noexcept;
+
 /// From held keys: x and y are -1, 0 or 1; (0, 0) is None.
 Direction direction_from_axes(int x, int y) noexcept;
 

@@ -5,7 +5,7 @@
 //
 // Little-endian; a header, a table of sections with 64-bit offsets and XXH3-64 sums, then the
 // sections; specified in engine/PACK.md. Until 1.0 a pack is read only by the build that wrote its
-// version (0.1): any other is refused with UnsupportedVersion.
+// version (0.2): any other is refused with UnsupportedVersion.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 namespace vsprite {
 
 inline constexpr std::uint16_t kPackMajor = 0;
-inline constexpr std::uint16_t kPackMinor = 1;
+inline constexpr std::uint16_t kPackMinor = 2;
 
 /// Reads header and tables and checks every count before memory is taken, every index, order and
 /// range. Pictures stay in the file, which remains open, and are checked when decoded. The file is

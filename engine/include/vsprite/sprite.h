@@ -9,14 +9,16 @@
 // natural successor). For every command l the film's own transitions were solved beforehand for the
 // discounted cost to go,
 //
-//     V_j = min_k [T_jk + w1 |angle(v_k, l)| + a V_k],        [NIPS section 4, eq. 2]
+//     V_i = min_j [p(T_ij) + G_j],    G_j = w a_j(l) + a V_j,     [NIPS section 4, eq. 2]
 //
-// and `next[table][sample]` holds the minimiser. A `Sprite` is loaded by load_pack (pack.h), never
-// changes, and may be read by any number of threads.
+// where a_j is how far sample j goes off the command and p the price of a jump (T itself in the
+// mode of the paper). `next[table][sample]` holds the minimiser, `go[table][sample]` G. A `Sprite`
+// is loaded by load_pack (pack.h), never changes, and may be read by any number of threads.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -48,6 +50,11 @@ struct Sample {
   std::uint32_t frame = 0;     ///< frame of the film, from 0
   std::uint32_t mirror_of = kNoSample;  ///< the sample of which this is the mirror image
   std::uint32_t kept = 0;               ///< 1 if transitions lead in and out, else 0
+  /// T of leaving the next sample out (playing at double rate): (D_i,i+1 + D_i+1,i+2) / 2;
+  /// infinity where the clip ends before.
+  float skip_cost = std::numeric_limits<float>::infinity();
+  /// Length of (step_x, step_y), 1/65536 px; filled in by load_pack and make_sprite.
+  std::uint32_t step_length = 0;
 };
 
 /// A jump or a natural continuation out of some sample.
@@ -56,21 +63,45 @@ struct Transition {
   float cost = 0;  ///< T_ij >= 0; 1 is the classifier's threshold
 };
 
+/// Headings that a mode may hold tables for, evenly spread and clockwise from right: 8, 16 or 32.
+inline constexpr std::uint32_t kMaxHeadings = 32;
+inline constexpr std::int32_t kUnitOne = 1 << 30;  ///< the number 1 in the sines and cosines below
+
 /// One way of steering (DESIGN: "paper", "responsive"): settings and the solved tables.
-/// Table index = direction * stages + stage; stage 0 is constrained, stage k has k free steps left.
+/// Table index = group * stages + stage. Groups are the headings, then none, then rest. A change of
+/// command enters the last stage. In the mode "paper" stage k has k free steps left and one is
+/// spent a sample; in "responsive" stage 1 turns, and is left for stage 0, which cruises, at the
+/// first sample that goes the commanded way.
 struct ControlMode {
   std::string name;
-  float alpha = 0;           ///< discount a, 0 <= a < 1
-  float w1 = 0;              ///< price of a radian off the command, >= 0
-  float cap = 0;             ///< transitions dearer than this were left out
-  std::uint32_t stages = 1;  ///< K + 1
+  float alpha = 0;         ///< discount a, 0 <= a < 1
+  float w1 = 0;            ///< price of a radian off the command at stage 0, >= 0
+  float turn_w1 = 0;       ///< the same while turning, >= 0
+  float cap = 0;           ///< transitions dearer than this were left out
+  float change_rate = 0;   ///< chance that the player changes the command, per sample, [0, 1)
+  float speed_weight = 0;  ///< price of standing still, in radians, >= 0
+  float skip_price = 0;    ///< a play-through costs this times its own T, squared, >= 0
+  float exit_angle = 0;    ///< a sample within this many radians of the command has turned
+  float dead_angle = 0;    ///< radians off the command that cost nothing
+  std::int32_t bend_cos = kUnitOne;  ///< cosine and sine, in 2^-30, of the largest angle by which
+  std::int32_t bend_sin = 0;         ///< the displacement is turned towards the command
+  std::uint32_t stages = 1;          ///< K + 1, or 2
+  std::uint32_t headings = kCompassCount;  ///< 8, 16 or 32
+  std::uint32_t power = 1;                 ///< of T in the price of a jump: 1 or 2
+  bool by_state = false;       ///< the last stage is left by `arrived`, not by counting samples
+  bool plays_through = false;  ///< the next sample may be left out
   std::array<Direction, kDirectionCount>
-      table_of{};                   ///< the command actually followed for each command:
-                                    ///< itself where served, else a near one, else Rest
-  std::uint32_t served = 0;         ///< bit d: direction d can be travelled
-  double residual = 0;              ///< largest |TV - V| over all tables
-  double error_bound = 0;           ///< residual / (1 - a)
-  std::vector<std::uint32_t> next;  ///< (10 * stages, N), kNoSample where the sample was not kept
+      table_of{};                      ///< the command actually followed for each command:
+                                       ///< itself where served, else a near one, else Rest
+  std::uint32_t served = 0;            ///< bit d: direction d can be travelled
+  std::uint32_t served_headings = 0;   ///< bit h: heading h can be travelled
+  double residual = 0;                 ///< largest |TV - V| over all tables
+  double error_bound = 0;              ///< residual / (1 - a)
+  std::vector<std::uint32_t> next;     ///< (tables, N), kNoSample where the sample was not kept
+  std::vector<float> go;               ///< (tables, N) G_j, >= 0; 0 where the sample was not kept
+  std::vector<std::uint32_t> arrived;  ///< (N) if by_state: bit h, the sample goes along heading h
+
+  std::size_t tables() const noexcept { return std::size_t{headings + 2} * stages; }
 };
 
 /// Everything that a pack is made of but the pictures. Plain data.
@@ -104,6 +135,8 @@ class Sprite {
   double fps() const noexcept;
   /// True if `to` is the film's own continuation of `from`: the next sample of the same clip.
   bool is_natural(std::uint32_t from, std::uint32_t to) const noexcept;
+  /// True if `to` is `from` played at double rate: the next sample but one of the same clip.
+  bool is_skip(std::uint32_t from, std::uint32_t to) const noexcept;
   /// T of the jump from -> to; 0 for the natural successor, infinity if there is none.
   float transition_cost(std::uint32_t from, std::uint32_t to) const noexcept;
   /// Index into data().modes, or -1.
@@ -125,6 +158,9 @@ class Sprite {
 /// A velocity in px/s as displacement per tick in 1/65536 px, rounded to nearest: `Sample::step_x`.
 std::int32_t step_per_tick(float velocity, std::uint32_t fps_numerator,
                            std::uint32_t fps_denominator) noexcept;
+
+/// Length of a displacement, rounded down.
+std::uint32_t step_length(std::int32_t x, std::int32_t y) noexcept;
 
 /// A sprite from data alone, checked as load_pack checks a file; its pictures are empty. For tools
 /// that steer before a pack is written. Errors: CorruptData, OutOfMemory.

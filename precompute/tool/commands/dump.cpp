@@ -141,11 +141,16 @@ Table transitions_table(const CostTable& costs) {
   return table_of({"i", "j", "T"}, std::move(values));
 }
 
-Table values_table(const ValueFile& file, std::size_t samples) {
-  const auto stages = static_cast<std::size_t>(file.solution.stages);
-  return {{},
-          {kDirectionCount, stages, samples},
-          {file.solution.values.begin(), file.solution.values.end()}};
+/// The stages of a mode as they stand, but turning before cruising.
+Table values_table(const Solution& solution, std::size_t samples) {
+  const std::size_t stages = solution.mode.stages, groups = solution.mode.headings + 2;
+  Table table{{}, {groups, stages, samples}, {}};
+  for (std::size_t k = 0; k < groups * stages; ++k) {
+    const std::size_t from = solution.mode.by_state ? k ^ 1 : k;
+    const auto first = solution.values.begin() + static_cast<std::ptrdiff_t>(from * samples);
+    table.values.insert(table.values.end(), first, first + static_cast<std::ptrdiff_t>(samples));
+  }
+  return table;
 }
 
 Result<Table> make_table(const Project& project, const Settings& settings) {
@@ -155,12 +160,15 @@ Result<Table> make_table(const Project& project, const Settings& settings) {
   if (!rows) return rows.error();
   if (settings.what == "samples") return samples_table(*rows);
   if (settings.what == "values") {
-    if (settings.mode != "paper")
-      return Error{ErrorCode::BadContent, project.path("values.bin") + ": it holds no mode `" +
-                                              settings.mode + "`: use --mode paper"};
     const auto values = project.values(rows->size());
     if (!values) return values.error();
-    return values_table(*values, rows->size());
+    const std::string mode = settings.mode.empty() ? "paper" : settings.mode;
+    const Solution* solution = values->find(mode);
+    if (solution == nullptr)
+      return Error{ErrorCode::BadContent, project.path("values.bin") + ": it holds no mode `" +
+                                              mode + "`: use --mode " +
+                                              values->modes.front().mode.name};
+    return values_table(*solution, rows->size());
   }
   const auto file = project.transitions(rows->size());
   if (!file) return file.error();

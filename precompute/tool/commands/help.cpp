@@ -15,8 +15,8 @@ constexpr Verb kVerbs[] = {
      "vsprite train --work hamster.work --threshold 0.8", run_train},
     {"transitions", "FILM|PACK|--work DIR", "classifier -> which frame may follow which",
      "vsprite transitions --work hamster.work --max-per-sample 50", run_transitions},
-    {"solve", "FILM|PACK|--work DIR", "transitions -> cost tables, eight directions",
-     "vsprite solve --work hamster.work --alpha 0.98 --w1 0.4", run_solve},
+    {"solve", "FILM|PACK|--work DIR", "transitions -> cost tables of both modes",
+     "vsprite solve --work hamster.work --turn-w1 1.5 --directions 16", run_solve},
     {"pack", "FILM|PACK|--work DIR", "all of it -> one file",
      "vsprite pack --work hamster.work -o hamster.vsp", run_pack},
     {"build", "FILM", "segment, train, transitions, solve, pack; what stands is not done again",
@@ -84,7 +84,7 @@ std::string overview_screen() {
       "FILE\n"
       "  train        labels -> classifier                          --threshold X  --folds N (5)\n"
       "  transitions  classifier -> which frame may follow which    --max-per-sample N (100)\n"
-      "  solve        transitions -> cost tables, eight directions  --alpha A (0.97)  --free-steps "
+      "  solve        transitions -> cost tables, both modes        --turn-w1 W (0.8)  --free-steps "
       "K (5)\n"
       "  pack         all of it -> one file                         -o FILE.vsp\n"
       "\n"

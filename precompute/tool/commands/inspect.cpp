@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDefaultSeconds = 12;
+constexpr std::uint64_t kBenchSeeds = 10;
 
 Result<Sprite> load_operand(const Settings& settings) {
   if (settings.film.empty()) return Error{ErrorCode::BadSetting, "a pack is due: PACK.vsp"};
@@ -70,10 +71,43 @@ Result<int> run_validate(const Settings& settings, Console& console) {
   return first_error.empty() ? 0 : 3;
 }
 
+namespace {
+
+Result<int> run_bench(const Settings& settings, const Sprite& sprite, Console& console) {
+  BenchConfig config;
+  config.jobs = settings.jobs;
+  for (std::uint64_t k = 0; k < kBenchSeeds; ++k)
+    config.seeds.push_back(1000 * settings.seed + k + 1);
+  Result<KeyScript> script = KeyScript{};
+  if (!settings.keys.empty()) {
+    const double last = settings.frames > 0 ? settings.frames / sprite.fps() : config.seconds;
+    script = script_of(settings, sprite.fps(), static_cast<std::uint64_t>(last * sprite.fps()));
+    if (!script) return script.error();
+    config.script = &*script;
+    config.seconds = last;
+  }
+  const StageListener listener = console.listener();
+  if (listener.begin) listener.begin("bench");
+  const auto result = measure_curves(sprite, config, listener.progress);
+  if (!result) return result.error();
+  if (listener.end) listener.end("bench", false);
+  if (!settings.output.empty()) {
+    const std::string svg = curves_svg(*result, sprite.data().name);
+    if (auto wrote = write_file(settings.output, svg); !wrote) return wrote.error();
+  }
+  console.text(bench_text(*result, sprite.fps()));
+  console.document(bench_json(*result));
+  console.next("vsprite play " + shell_word(settings.film));
+  return 0;
+}
+
+}  // namespace
+
 Result<int> run_steer(const Settings& settings, Console& console) {
   const auto sprite = load_operand(settings);
   if (!sprite) return sprite.error();
-  const int mode = sprite->find_mode(settings.mode);
+  if (settings.bench) return run_bench(settings, *sprite, console);
+  const int mode = settings.mode.empty() ? 0 : sprite->find_mode(settings.mode);
   if (mode < 0)
     return Error{ErrorCode::BadContent, settings.film + ": it holds no mode `" + settings.mode +
                                             "`: use --mode " + sprite->data().modes.front().name};

@@ -37,7 +37,7 @@ Result<int> run_play(const Settings& settings, Console& console) {
   if (!pack) return pack.error();
   const auto sprite = load_pack(*pack);
   if (!sprite) return sprite.error();
-  if (sprite->find_mode(settings.mode) < 0)
+  if (!settings.mode.empty() && sprite->find_mode(settings.mode) < 0)
     return Error{ErrorCode::BadContent, *pack + ": it holds no mode `" + settings.mode +
                                             "`: use --mode " + sprite->data().modes.front().name};
   console.text(describe_directions(*sprite, settings.mode));

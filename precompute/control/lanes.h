@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// control/lanes.h - eight deterministic control problems over one graph, solved together.
+//
+//     V_i = min_j [p_ij + c_j + b V'_j],    V'_j = V_j, or a value from outside where j is an exit
+//
+// The next sample follows from the choice alone, so a policy is a functional graph: every sample
+// runs into one cycle, on which V is a geometric sum. A policy is therefore evaluated exactly in
+// O(N), whatever b (Howard), and improved by sweeps from the last sample to the first, since a film
+// runs forward and values travel backwards. The eight problems lie in the lanes of one vector. Each
+// lane is computed by itself in IEEE single precision: the same bits with any instruction set.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "similarity/transitions.h"
+
+namespace vsprite {
+
+inline constexpr std::size_t kLanes = 8;
+inline constexpr std::uint32_t kNoEdge = std::numeric_limits<std::uint32_t>::max();
+
+/// The transitions that a mode may take, and their prices.
+struct Edges {
+  std::vector<std::uint32_t> row_start;  ///< (N + 1)
+  std::vector<std::uint32_t> to;
+  std::vector<float> price;  ///< >= 0
+  std::size_t size() const { return row_start.size() - 1; }
+};
+
+struct PriceConfig {
+  double cap = 1;          ///< dearer transitions are left out, but for the cheapest of a row
+  int power = 1;           ///< price = T^power
+  double skip_price = -1;  ///< >= 0: i -> i+2 costs (skip_price x its T)^power
+};
+/// `skip_costs`: (N) T of leaving out the next sample, or infinity; empty: none.
+Edges make_edges(const CostTable& costs, std::span<const float> skip_costs,
+                 const PriceConfig& config);
+
+/// (N, kLanes), lanes together.
+using LaneFloats = std::vector<float>;
+using LaneDoubles = std::vector<double>;
+
+/// One vector of problems and how far it has been solved.
+struct Lanes {
+  double discount = 0;              ///< b
+  LaneFloats arrive;                ///< c_j
+  std::vector<std::uint8_t> exits;  ///< (N) bit k: in lane k the value of j is `beyond`; or empty
+  const LaneDoubles* beyond = nullptr;
+  std::array<double, kLanes> offset{};  ///< about V; sweeps look at V - offset, which keeps digits
+
+  LaneDoubles values;                 ///< V; +inf where a row is empty
+  std::vector<std::uint32_t> policy;  ///< (N, kLanes) edge, kNoEdge at first
+};
+/// `lanes.arrive` is due; values become 0.
+void start(const Edges& edges, Lanes& lanes);
+/// One sweep: every choice becomes the best for what is known, in place. Returns how many changed.
+std::size_t improve(const Edges& edges, Lanes& lanes);
+/// V of the policy as it stands, exactly.
+void evaluate(const Edges& edges, Lanes& lanes);
+/// Sweeps and evaluations until no choice changes.
+void solve_lanes(const Edges& edges, Lanes& lanes);
+
+/// min_j [p_ij + g_j] for (N, kLanes) g in double, its minimiser `to` (of near ties, within 1e-6 of
+/// the value, the lowest sample), for every row; +inf and kNoSample where a row is empty.
+void best_of_rows(const Edges& edges, const LaneDoubles& go, LaneDoubles& values,
+                  std::vector<std::uint32_t>& to);
+
+}  // namespace vsprite
