@@ -58,27 +58,27 @@ CellSum sum_cell(const Image& image, const Overlap& x, const Overlap& y) {
   return sum;
 }
 
-using BlockCells = std::array<std::int16_t, 4 * kBlockCells>;
+using BlockCells = std::array<std::uint8_t, kBlockBytes>;
 
 // Calls visit(k, cells) for every block that shows something, ascending.
 template <class Visit>
 void for_each_block(const CellImage& image, Visit visit) {
-  const std::int16_t* cells = image.cells.data();
+  const std::uint8_t* cells = image.cells.data();
   for (std::size_t w = 0; w < image.seen.size(); ++w) {
     for (std::uint64_t bits = image.seen[w]; bits != 0; bits &= bits - 1) {
       visit(64 * w + static_cast<std::size_t>(std::countr_zero(bits)), cells);
-      cells += 4 * kBlockCells;
+      cells += kBlockBytes;
     }
   }
 }
 
-std::vector<const std::int16_t*> find_blocks(const CellImage& image, std::size_t count) {
-  std::vector<const std::int16_t*> blocks(count, nullptr);
-  for_each_block(image, [&](std::size_t k, const std::int16_t* cells) { blocks[k] = cells; });
+std::vector<const std::uint8_t*> find_blocks(const CellImage& image, std::size_t count) {
+  std::vector<const std::uint8_t*> blocks(count, nullptr);
+  for_each_block(image, [&](std::size_t k, const std::uint8_t* cells) { blocks[k] = cells; });
   return blocks;
 }
 
-std::uint64_t block_difference(const std::int16_t* a, const std::int16_t* b) noexcept {
+std::uint64_t block_difference(const std::uint8_t* a, const std::uint8_t* b) noexcept {
   std::uint64_t sum = 0;
   for (int c = 0; c < kBlockCells; ++c) {
     int squares = 0;
@@ -118,10 +118,10 @@ CellImage make_cells(const SampleRow& row, const Image& image, double cell, int 
       if (alpha == 0) continue;
       shows = true;
       result.coverage += static_cast<std::uint32_t>(alpha);
-      cells[c] = static_cast<std::int16_t>(alpha);
+      cells[c] = static_cast<std::uint8_t>(alpha);
       for (std::size_t k = 0; k < 3; ++k) {
         cells[(k + 1) * kBlockCells + c] =
-            static_cast<std::int16_t>((sum.color[k] + sum.alpha / 2) / sum.alpha);
+            static_cast<std::uint8_t>((sum.color[k] + sum.alpha / 2) / sum.alpha);
       }
     }
     if (!shows) continue;
@@ -155,10 +155,10 @@ void reorder(CellImage& image, const BlockOrder& order) {
   sorted.coverage = image.coverage;
   sorted.cells.reserve(image.cells.size());
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const std::int16_t* cells = blocks[order[k]];
+    const std::uint8_t* cells = blocks[order[k]];
     if (!cells) continue;
     sorted.seen[k / 64] |= std::uint64_t{1} << k % 64;
-    sorted.cells.insert(sorted.cells.end(), cells, cells + 4 * kBlockCells);
+    sorted.cells.insert(sorted.cells.end(), cells, cells + kBlockBytes);
   }
   image = std::move(sorted);
 }
@@ -167,7 +167,7 @@ std::vector<std::int16_t> coarse_coverage(const CellImage& image, const BlockOrd
                                           int grid) {
   const int across = grid / kBlockSide, squares = grid / kCoarse;
   std::vector<std::int16_t> sums(static_cast<std::size_t>(squares * squares), 0);
-  for_each_block(image, [&](std::size_t k, const std::int16_t* cells) {
+  for_each_block(image, [&](std::size_t k, const std::uint8_t* cells) {
     const int y = order[k] / across * kBlockSide / kCoarse;
     const int x = order[k] % across * kBlockSide / kCoarse;
     std::int16_t& sum = sums[static_cast<std::size_t>(y * squares + x)];

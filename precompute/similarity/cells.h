@@ -22,6 +22,7 @@ namespace vsprite {
 
 inline constexpr int kBlockSide = 4;                         ///< cells
 inline constexpr int kBlockCells = kBlockSide * kBlockSide;  ///< 16
+inline constexpr int kBlockBytes = 4 * kBlockCells;          ///< a cache line
 inline constexpr int kMaxGrid = 64;                          ///< cells a side
 inline constexpr int kBlockWords = kMaxGrid * kMaxGrid / kBlockCells / 64;
 
@@ -44,7 +45,7 @@ struct LineAllocator {
 struct CellImage {
   std::array<std::uint64_t, kBlockWords> seen{};  ///< bit k: block k shows something
   /// (blocks seen, 4, 16): coverage 0..255, then red, green, blue, straight, 0 where nothing shows.
-  std::vector<std::int16_t, LineAllocator<std::int16_t>> cells;
+  std::vector<std::uint8_t, LineAllocator<std::uint8_t>> cells;
   std::uint32_t coverage = 0;  ///< sum of coverage
 };
 

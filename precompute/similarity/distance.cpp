@@ -40,6 +40,7 @@ detail::PairTable make_table(const FeatureSet& set, const Classifier& classifier
     table.speed.push_back(s.speed), table.angle.push_back(s.heading);
     table.area.push_back(s.area), table.red.push_back(s.mean_color[0]);
     table.green.push_back(s.mean_color[1]), table.blue.push_back(s.mean_color[2]);
+    table.coverage.push_back(static_cast<float>(s.cells.coverage));
     table.cells.push_back(&s.cells);
     auto coarse = coarse_coverage(s.cells, set.block_order, set.grid);
     coarse.resize(table.coarse_size, 0);

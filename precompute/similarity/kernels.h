@@ -9,8 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <span>
 #include <vector>
 
 #include "similarity/cells.h"
@@ -28,7 +26,7 @@ PairSums compare_cells(const CellImage& a, const CellImage& b) noexcept;
 /// end in kPadding entries more.
 struct PairTable {
   static constexpr std::size_t kPadding = 16;
-  std::vector<float> speed, angle, area, red, green, blue;
+  std::vector<float> speed, angle, area, red, green, blue, coverage;
   std::vector<std::int16_t> coarse;  ///< (N, coarse_size) coverage of 8 x 8 cells
   std::size_t coarse_size = 0;       ///< a multiple of 16, padded with 0
   std::vector<const CellImage*> cells;

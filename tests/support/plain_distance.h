@@ -29,8 +29,7 @@ inline std::vector<std::uint8_t> dense_cells(const FeatureSet& set, std::size_t 
       const std::size_t cell = c % kBlockCells;
       const std::size_t y = block / across * kBlockSide + cell / kBlockSide;
       const std::size_t x = block % across * kBlockSide + cell % kBlockSide;
-      planes[c / kBlockCells * side * side + y * side + x] =
-          static_cast<std::uint8_t>(image.cells[stored + c]);
+      planes[c / kBlockCells * side * side + y * side + x] = image.cells[stored + c];
     }
     stored += 4 * kBlockCells;
   }
