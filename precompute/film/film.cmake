@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
   film/video.cpp
-  film/coded_size.cpp
+  film/decoder.cpp
+  film/color.cpp
   film/light.cpp
   film/grid.cpp
   film/silhouette.cpp
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp
+  film/subject.cpp
   film/extract.cpp
   film/contact.cpp
+  film/checkup.cpp
 )
 
 # Nobody reads errno after a square root; without it the loops over cells are vectorised. The
