@@ -18,7 +18,7 @@
 
 #include "control/joint.h"
 #include "control/lanes.h"
-#include "similarity/random.h"
+#include "vsprite/random.h"
 #include "support/dense_control.h"
 
 namespace vsprite {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-#include "similarity/random.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {

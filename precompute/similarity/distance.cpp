@@ -9,153 +9,157 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
+#include <cmath>
 #include <mutex>
 
 namespace vsprite {
 namespace {
 
-constexpr int kTileRows = 32;  // samples i of a tile
-constexpr int kTileColumns =
-    256;  // samples j looked at together, so that their blocks stay in cache
+constexpr std::uint64_t kTilePairs = 1 << 19;  // a tile has about as many, or a 512th of all
+constexpr int kRowsTogether = 32;              // rows that share a part of the columns in cache
+constexpr float kMargin = 2e-5f;               // over the rounding of float bounds, relative
+constexpr double kLeastWeight = 1e-150;        // keeps a quotient finite
 
-constexpr int kMaxBands = 64 / kBlock;
-
-// Lower bounds of the difference in coverage, one for each band (a row of blocks), and which bands
-// show anything at all.
-struct Bands {
-  std::array<std::uint32_t, kMaxBands> bound{};
-  std::array<bool, kMaxBands> empty{};
-  std::uint32_t sum = 0;
-};
-
-Bands bound_bands(const FeatureSample& a, const FeatureSample& b, std::size_t bands) noexcept {
-  Bands result;
-  for (std::size_t band = 0; band < bands; ++band) {
-    std::uint32_t bound = 0, seen = 0;
-    for (std::size_t k = band * bands; k < (band + 1) * bands; ++k) {
-      bound += static_cast<std::uint32_t>(std::abs(a.block_alpha[k] - b.block_alpha[k]));
-      seen |= static_cast<std::uint32_t>(a.block_alpha[k]) | b.block_alpha[k];
-    }
-    result.bound[band] = bound;
-    result.empty[band] = seen == 0;
-    result.sum += bound;
+detail::PairTable make_table(const FeatureSet& set, const Classifier& classifier, float limit) {
+  detail::PairTable table;
+  const auto weight = [&](Feature f) {
+    return static_cast<float>(classifier.weights[f] / classifier.threshold);
+  };
+  table.per_area = set.scale == FeatureScale::PerArea;
+  table.speed_weight = weight(kSpeed), table.angle_weight = weight(kAngle);
+  table.area_weight = weight(kArea), table.mean_weight = weight(kMeanColor);
+  const double unit = table.per_area ? 1 : 255;
+  table.alpha_weight = static_cast<float>(classifier.weights[kAlpha] / classifier.threshold / unit);
+  table.color_weight =
+      std::max(classifier.weights[kColor] / classifier.threshold / std::sqrt(unit), kLeastWeight);
+  table.fade = static_cast<float>(set.v0);
+  table.limit = limit * (1 + kMargin);
+  const int squares = set.grid / 8 * (set.grid / 8);
+  table.coarse_size = static_cast<std::size_t>((squares + 15) / 16 * 16);
+  for (const FeatureSample& s : set.samples) {
+    table.speed.push_back(s.speed), table.angle.push_back(s.heading);
+    table.area.push_back(s.area), table.red.push_back(s.mean_color[0]);
+    table.green.push_back(s.mean_color[1]), table.blue.push_back(s.mean_color[2]);
+    table.coverage.push_back(static_cast<float>(s.cells.coverage));
+    table.cells.push_back(&s.cells);
+    auto coarse = coarse_coverage(s.cells, set.block_order, set.grid);
+    coarse.resize(table.coarse_size, 0);
+    table.coarse.insert(table.coarse.end(), coarse.begin(), coarse.end());
   }
-  return result;
+  for (auto* column :
+       {&table.speed, &table.angle, &table.area, &table.red, &table.green, &table.blue}) {
+    column->resize(column->size() + detail::PairTable::kPadding, 0);
+  }
+  return table;
 }
 
-// One pair, the cheapest bound first. `f` holds lower bounds that are replaced by the features.
-class PairTest {
- public:
-  PairTest(const FeatureSet& set, const Classifier& classifier)
-      : set_(set), classifier_(classifier), plane_(set.grid * set.grid) {
-    // From the middle outward: that is where the subject is, and so where it differs.
-    const int bands = set.grid / kBlock;
-    for (int k = 0; k < bands; ++k) {
-      order_.push_back(bands / 2 + (k % 2 == 0 ? k / 2 : -(k + 1) / 2));
-    }
+std::vector<int> make_tiles(std::size_t samples) {
+  const auto n = static_cast<std::uint64_t>(samples);
+  const std::uint64_t all = n * (n - (n > 0)) / 2, size = std::max(kTilePairs, all / 512);
+  std::vector<int> first_row{0};
+  std::uint64_t pairs = 0;
+  for (std::uint64_t i = 0; i < n; ++i) {
+    pairs += n - 1 - i;
+    if (pairs < size && i + 1 < n) continue;
+    first_row.push_back(static_cast<int>(i) + 1);
+    pairs = 0;
   }
-
-  // True if accepted, with its distance; `compared` counts pairs whose cells were looked at.
-  bool accept(int i, int j, float& distance, std::uint64_t& compared) const noexcept {
-    FeatureVector f = cheap_features(set_, i, j);
-    if (refused(f)) return false;
-    const FeatureSample& a = set_.samples[static_cast<std::size_t>(i)];
-    const FeatureSample& b = set_.samples[static_cast<std::size_t>(j)];
-    const Bands bands = bound_bands(a, b, order_.size());
-    f[kAlpha] = detail::alpha_feature(bands.sum);
-    if (refused(f)) return false;
-    ++compared;
-    std::uint32_t alpha = bands.sum;
-    std::uint64_t color = 0;
-    for (const int band : order_) {
-      const auto k = static_cast<std::size_t>(band);
-      if (bands.empty[k]) continue;
-      const int first = band * kBlock * set_.grid;
-      alpha += detail::alpha_difference(a.planes.data() + first, b.planes.data() + first,
-                                        kBlock * set_.grid) -
-               bands.bound[k];
-      color += detail::color_difference(a.planes.data(), b.planes.data(), plane_, first, set_.grid,
-                                        kBlock);
-      f[kAlpha] = detail::alpha_feature(alpha);
-      f[kColor] = detail::color_feature(color);
-      if (refused(f)) return false;
-    }
-    distance = classifier_.distance(f);
-    return true;
-  }
-
- private:
-  bool refused(const FeatureVector& lower_bound) const noexcept {
-    return classifier_.distance(lower_bound) > 1.0f;
-  }
-
-  const FeatureSet& set_;
-  const Classifier& classifier_;
-  int plane_;
-  std::vector<int> order_;  // of the bands
-};
-
-struct Tile {
-  std::vector<PairDistance> pairs;
-  std::uint64_t compared = 0;
-};
-
-Tile compare_tile(const PairTest& test, int first, int count) {
-  const int last = std::min(first + kTileRows, count);
-  std::vector<std::vector<PairDistance>> rows(kTileRows);
-  Tile tile;
-  for (int column = first; column < count; column += kTileColumns) {
-    const int end = std::min(column + kTileColumns, count);
-    for (int i = first; i < last; ++i) {
-      for (int j = std::max(i + 1, column); j < end; ++j) {
-        float distance = 0;
-        if (test.accept(i, j, distance, tile.compared)) {
-          rows[static_cast<std::size_t>(i - first)].push_back(
-              {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), distance});
-        }
-      }
-    }
-  }
-  for (const auto& row : rows) tile.pairs.insert(tile.pairs.end(), row.begin(), row.end());
-  return tile;
+  if (first_row.size() == 1) first_row.push_back(0);
+  return first_row;
 }
 
 }  // namespace
 
-std::vector<PairDistance> accepted_pairs(const FeatureSet& set, const Classifier& classifier,
-                                         int jobs, std::uint64_t* compared,
+PairFinder::PairFinder(const FeatureSet& set, const Classifier& classifier, float limit)
+    : set_(set),
+      classifier_(classifier),
+      limit_(limit),
+      table_(make_table(set, classifier, limit)),
+      first_row_(make_tiles(set.samples.size())) {}
+
+void PairFinder::find_row(int i, int begin, int end, PairTile& tile) const {
+  std::array<detail::Candidate, detail::kRowPart> candidates;
+  const auto row = static_cast<std::size_t>(i);
+  for (auto from = static_cast<std::size_t>(begin); from < static_cast<std::size_t>(end);
+       from += detail::kRowPart) {
+    const std::size_t to = std::min(from + detail::kRowPart, static_cast<std::size_t>(end));
+    const std::size_t count =
+        detail::filter_row(table_, row, from, to, candidates.data(), tile.compared);
+    for (std::size_t n = 0; n < count; ++n) {
+      const auto& [j, sums] = candidates[n];
+      const int column = static_cast<int>(j);
+      FeatureVector f = cheap_features(set_, i, column);
+      const std::uint32_t coverage =
+          set_.samples[row].cells.coverage + set_.samples[j].cells.coverage;
+      detail::set_pixel_features(set_, i, column, sums.color, coverage - 2 * sums.overlap, f);
+      const float distance = classifier_.distance(f);
+      if (distance <= limit_) tile.pairs.push_back({static_cast<std::uint32_t>(i), j, distance});
+    }
+  }
+}
+
+PairTile PairFinder::find(int tile) const {
+  const int count = static_cast<int>(set_.samples.size()), end = first_row(tile + 1);
+  PairTile result;
+  std::array<PairTile, kRowsTogether> rows;
+  for (int first = first_row(tile); first < end; first += kRowsTogether) {
+    const int last = std::min(first + kRowsTogether, end);
+    for (PairTile& row : rows) row.pairs.clear();
+    for (int from = first + 1; from < count; from += static_cast<int>(detail::kRowPart)) {
+      const int to = std::min(from + static_cast<int>(detail::kRowPart), count);
+      for (int i = first; i < last; ++i) {
+        find_row(i, std::max(from, i + 1), to, rows[static_cast<std::size_t>(i - first)]);
+      }
+    }
+    for (int i = first; i < last; ++i) {
+      const auto& found = rows[static_cast<std::size_t>(i - first)].pairs;
+      result.pairs.insert(result.pairs.end(), found.begin(), found.end());
+      result.considered += static_cast<std::uint64_t>(count - 1 - i);
+    }
+  }
+  for (const PairTile& row : rows) result.compared += row.compared;
+  return result;
+}
+
+std::vector<PairDistance> accepted_pairs(const PairFinder& finder, int jobs, const TileStore& store,
+                                         std::uint64_t* compared,
                                          const std::function<void(double)>& progress) {
-  const int count = static_cast<int>(set.samples.size());
-  const int tile_count = (count + kTileRows - 1) / kTileRows;
-  const PairTest test(set, classifier);
-  std::vector<Tile> tiles(static_cast<std::size_t>(tile_count));
+  std::vector<PairTile> tiles(static_cast<std::size_t>(finder.tile_count()));
   std::mutex progress_mutex;
-  std::uint64_t done = 0;
+  int done = 0;
   tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
   arena.execute([&] {
-    tbb::parallel_for(0, tile_count, [&](int t) {
-      const int first = t * kTileRows;
-      tiles[static_cast<std::size_t>(t)] = compare_tile(test, first, count);
-      if (!progress) return;
-      const std::scoped_lock lock(progress_mutex);
-      done += static_cast<std::uint64_t>(count - first);
-      const auto total =
-          static_cast<std::uint64_t>(tile_count) *
-          (2 * static_cast<std::uint64_t>(count) -
-           static_cast<std::uint64_t>(kTileRows) * static_cast<std::uint64_t>(tile_count - 1)) /
-          2;
-      progress(static_cast<double>(done) / static_cast<double>(total));
+    tbb::parallel_for(tbb::blocked_range<int>(0, finder.tile_count(), 1), [&](const auto& range) {
+      for (int t = range.begin(); t < range.end(); ++t) {
+        PairTile& tile = tiles[static_cast<std::size_t>(t)];
+        if (!store.load || !store.load(t, tile)) {
+          tile = finder.find(t);
+          if (store.save) store.save(t, tile);
+        }
+        if (!progress) continue;
+        const std::scoped_lock lock(progress_mutex);
+        progress(static_cast<double>(++done) / finder.tile_count());
+      }
     });
   });
+  std::size_t total = 0;
+  for (const PairTile& tile : tiles) total += tile.pairs.size();
   std::vector<PairDistance> pairs;
+  pairs.reserve(total);
   std::uint64_t looked_at = 0;
-  for (const Tile& tile : tiles) {
+  for (PairTile& tile : tiles) {
     pairs.insert(pairs.end(), tile.pairs.begin(), tile.pairs.end());
     looked_at += tile.compared;
+    tile = {};
   }
   if (compared) *compared = looked_at;
   return pairs;
+}
+
+std::vector<PairDistance> accepted_pairs(const FeatureSet& set, const Classifier& classifier,
+                                         int jobs, std::uint64_t* compared,
+                                         const std::function<void(double)>& progress, float limit) {
+  return accepted_pairs(PairFinder(set, classifier, limit), jobs, {}, compared, progress);
 }
 
 }  // namespace vsprite

@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
+  similarity/cells.cpp
+  similarity/kernels.cpp
   similarity/features.cpp
   similarity/label.cpp
   similarity/ask.cpp
@@ -9,3 +11,6 @@ target_sources(vsprite_precompute PRIVATE
   similarity/distance.cpp
   similarity/transitions.cpp
 )
+# Highway: the kernels of all pairs, one copy for each instruction set.
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
+target_link_libraries(vsprite_precompute PRIVATE PkgConfig::HWY)

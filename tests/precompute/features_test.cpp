@@ -42,6 +42,31 @@ TEST(Features, AlphaCountsTheCellsThatDiffer) {
   EXPECT_EQ(features(set, 0, 1)[kColor], 0);
 }
 
+TEST(Features, PerAreaAreFreeOfScale) {
+  const auto take = [](int size) {
+    std::vector<SampleRow> rows(2);
+    for (int i = 0; i < 2; ++i) {
+      SampleRow& r = rows[static_cast<std::size_t>(i)];
+      r.width = r.height = size, r.anchor_x = r.anchor_y = size / 2;
+      r.velocity_x = size * (2 + i), r.area = size * size / (1.0 + i);
+    }
+    FeatureSet set = make_feature_set(rows, 30, 16, [&](int i) {
+      Image image{size, size, std::vector<std::uint8_t>(static_cast<std::size_t>(4 * size * size))};
+      for (std::size_t p = 0; p < image.rgba.size(); p += 4) {
+        image.rgba[p] = static_cast<std::uint8_t>(100 + 50 * i);
+        image.rgba[p + 3] = i == 0 || p < image.rgba.size() / 2 ? 255 : 0;
+      }
+      return image;
+    });
+    set.scale = FeatureScale::PerArea;
+    return features(set, 0, 1);
+  };
+  const FeatureVector near = take(64), far = take(32);
+  EXPECT_EQ(near, far);
+  EXPECT_FLOAT_EQ(near[kAlpha], 128.0f / 192);  // 256 cells against 128
+  EXPECT_FLOAT_EQ(near[kColor], 50 * std::sqrt(128.0f / 192));
+}
+
 TEST(Features, AngleFadesAtLowSpeed) {
   SampleRow right, left;
   right.velocity_x = 100, left.velocity_x = -1;

@@ -13,20 +13,6 @@ Classifier trained(const FeatureSet& set) {
   return train(set, bootstrap_labels(set, 400, 1), {})->classifier;
 }
 
-TEST(Distance, AcceptsExactlyWhatThePlainLoopAccepts) {
-  const FeatureSet set = testing::make_creature(320, 80);
-  const Classifier classifier = trained(set);
-  std::vector<PairDistance> plain;
-  for (std::uint32_t i = 0; i < 320; ++i) {
-    for (std::uint32_t j = i + 1; j < 320; ++j) {
-      const float d = classifier.distance(features(set, static_cast<int>(i), static_cast<int>(j)));
-      if (d <= 1) plain.push_back({i, j, d});
-    }
-  }
-  ASSERT_FALSE(plain.empty());
-  for (int jobs : {1, 2, 4}) EXPECT_EQ(accepted_pairs(set, classifier, jobs), plain);
-}
-
 TEST(Transitions, FollowTheEquationAndTheBanAndAreStronglyConnected) {
   const FeatureSet set = testing::make_creature(320, 80);
   const Classifier classifier = trained(set);

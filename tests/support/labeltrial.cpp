@@ -17,7 +17,7 @@
 #include <string>
 
 #include "similarity/ask.h"
-#include "similarity/random.h"
+#include "vsprite/random.h"
 #include "support/pose_truth.h"
 #include "tool/pictures.h"
 

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "similarity/random.h"
+#include "vsprite/random.h"
 #include "similarity/transitions.h"
 #include "vsprite/sprite.h"
 

@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// Compiled once for each instruction set (Highway), chosen at the first call.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "similarity/kernels.cpp"
+#include <hwy/foreach_target.h>
+// after foreach_target
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "similarity/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vsprite::detail::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// A block is 16 cells: one register of 16-bit lanes, or two or four where registers are short.
+using Cells = hn::CappedTag<std::int16_t, kBlockCells>;
+using Bytes = hn::Rebind<std::uint8_t, Cells>;
+using Sums = hn::RepartitionToWide<Cells>;
+
+constexpr std::size_t kAhead = 4;        // pairs between a prefetch and its use
+constexpr int kBlocksBetweenChecks = 4;  // 4 blocks add less than 2^32: a 32-bit sum is exact
+
+// Sum of w d^2 in 16-bit products: d^2 < 2^16 is taken as d^2 - 2^15, which is signed, and the
+// bias 3 x 2^15 x sum of w is put back when the lanes are added up.
+constexpr int kBias = 3 << 15;
+
+// `color` and `weight` since the last check, `overlap` before it.
+struct Accumulator {
+  hn::Vec<Sums> color, color_odd, weight, weight_odd, overlap;
+};
+
+HWY_INLINE void clear(Accumulator& sum) {
+  sum.color = sum.color_odd = sum.weight = sum.weight_odd = hn::Zero(Sums());
+}
+
+HWY_INLINE hn::Vec<Cells> load(const std::uint8_t* HWY_RESTRICT cells) {
+  return hn::PromoteTo(Cells(), hn::Load(Bytes(), cells));
+}
+
+HWY_INLINE hn::Vec<Cells> load(const std::int16_t* HWY_RESTRICT cells) {
+  return hn::Load(Cells(), cells);
+}
+
+// `a` in bytes, or widened beforehand where it is compared with many.
+template <class Cell>
+HWY_INLINE void add_block(const Cell* HWY_RESTRICT a, const std::uint8_t* HWY_RESTRICT b,
+                          Accumulator& sum) {
+  const Cells d;
+  const Sums d32;
+  const auto one = hn::Set(d, std::int16_t{1});
+  const auto sign = hn::Set(d, std::int16_t{-0x8000});
+  for (std::size_t c = 0; c < kBlockCells; c += hn::Lanes(d)) {
+    const auto w = hn::Min(load(a + c), load(b + c));
+    sum.weight = hn::ReorderWidenMulAccumulate(d32, w, one, sum.weight, sum.weight_odd);
+    for (std::size_t k = kBlockCells; k < kBlockBytes; k += kBlockCells) {
+      const auto difference = hn::Sub(load(a + k + c), load(b + k + c));
+      const auto square = hn::Xor(hn::Mul(difference, difference), sign);
+      sum.color = hn::ReorderWidenMulAccumulate(d32, w, square, sum.color, sum.color_odd);
+    }
+  }
+}
+
+// The colour sum since the last check.
+HWY_INLINE std::uint32_t take_color(Accumulator& sum) {
+  const Sums d32;
+  const auto weight = hn::Add(sum.weight, sum.weight_odd);
+  const auto color = hn::Add(hn::Add(sum.color, sum.color_odd),
+                             hn::Mul(weight, hn::Set(d32, std::int32_t{kBias})));
+  sum.overlap = hn::Add(sum.overlap, weight);
+  clear(sum);
+  return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(d32, color)));
+}
+
+// False as soon as the colour sum exceeds `budget`; `sums` are then of no use.
+template <class Cell>
+HWY_INLINE bool compare(const CellImage& a, const Cell* cells_a, const CellImage& b,
+                        std::uint64_t budget, PairSums& sums) {
+  const std::uint8_t* cells_b = b.cells.data();
+  Accumulator sum;
+  clear(sum);
+  sum.overlap = hn::Zero(Sums());
+  std::uint64_t color = 0;
+  int pending = 0;
+  for (std::size_t w = 0; w < a.seen.size(); ++w) {
+    const std::uint64_t in_a = a.seen[w], in_b = b.seen[w];
+    for (std::uint64_t both = in_a & in_b; both != 0; both &= both - 1) {
+      const std::uint64_t below = (both & (~both + 1)) - 1;
+      add_block(cells_a + kBlockBytes * std::popcount(in_a & below),
+                cells_b + kBlockBytes * std::popcount(in_b & below), sum);
+      if (++pending < kBlocksBetweenChecks) continue;
+      pending = 0;
+      color += take_color(sum);
+      if (color > budget) return false;
+    }
+    cells_a += kBlockBytes * std::popcount(in_a);
+    cells_b += kBlockBytes * std::popcount(in_b);
+  }
+  color += take_color(sum);
+  sums.color = color;
+  sums.overlap = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(Sums(), sum.overlap)));
+  return color <= budget;
+}
+
+PairSums CompareCells(const CellImage& a, const CellImage& b) {
+  PairSums sums;
+  compare(a, a.cells.data(), b, ~std::uint64_t{0}, sums);
+  return sums;
+}
+
+// Sum of |A_i - A_j| over coarse squares, a lower bound of the sum of |a_i - a_j|.
+HWY_INLINE std::uint32_t coarse_difference(const std::int16_t* HWY_RESTRICT a,
+                                           const std::int16_t* HWY_RESTRICT b, std::size_t count) {
+  const Cells d;
+  const Sums d32;
+  const auto one = hn::Set(d, std::int16_t{1});
+  auto sum = hn::Zero(d32), odd = hn::Zero(d32);
+  for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
+    const auto x = hn::LoadU(d, a + c), y = hn::LoadU(d, b + c);
+    const auto difference = hn::Sub(hn::Max(x, y), hn::Min(x, y));
+    sum = hn::ReorderWidenMulAccumulate(d32, difference, one, sum, odd);
+  }
+  return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(sum, odd))));
+}
+
+// What the four features without pixels leave: columns and lower bounds of D.
+struct Left {
+  std::array<std::uint32_t, kRowPart + 64> column;
+  std::array<float, kRowPart + 64> bound;
+  std::size_t count;
+};
+
+template <bool kPerArea>
+HWY_INLINE void filter_cheap(const PairTable& t, std::size_t i, std::size_t begin, std::size_t end,
+                             Left& left) {
+  const hn::ScalableTag<float> d;
+  const auto circle = hn::Set(d, 6.28318530717958647692f), zero = hn::Zero(d);
+  const auto slack = hn::Set(d, 1e-6f);  // two roundings of an angle
+  const auto one = hn::Set(d, 1.0f), fade = hn::Set(d, 1.0f / t.fade);
+  const auto limit = hn::Set(d, t.limit);
+  const auto speed = hn::Set(d, t.speed[i]), angle = hn::Set(d, t.angle[i]);
+  const auto area = hn::Set(d, t.area[i]), red = hn::Set(d, t.red[i]);
+  const auto green = hn::Set(d, t.green[i]), blue = hn::Set(d, t.blue[i]);
+  for (std::size_t j = begin; j < end; j += hn::Lanes(d)) {
+    const auto other = hn::LoadU(d, t.speed.data() + j);
+    auto speed_part = hn::Abs(hn::Sub(speed, other));
+    const auto apart = hn::Abs(hn::Sub(angle, hn::LoadU(d, t.angle.data() + j)));
+    const auto turn = hn::Max(hn::Sub(hn::Min(apart, hn::Sub(circle, apart)), slack), zero);
+    const auto faded = hn::Min(hn::Mul(hn::Min(speed, other), fade), one);
+    const auto other_area = hn::LoadU(d, t.area.data() + j);
+    auto area_part = hn::Abs(hn::Sub(area, other_area));
+    if constexpr (kPerArea) {
+      const auto mean = hn::Mul(hn::Add(area, other_area), hn::Set(d, 0.5f));
+      const auto any = hn::Gt(mean, zero);
+      speed_part = hn::IfThenElseZero(any, hn::Div(speed_part, hn::Sqrt(mean)));
+      area_part = hn::IfThenElseZero(any, hn::Div(area_part, mean));
+    }
+    const auto r = hn::Sub(red, hn::LoadU(d, t.red.data() + j));
+    const auto g = hn::Sub(green, hn::LoadU(d, t.green.data() + j));
+    const auto b = hn::Sub(blue, hn::LoadU(d, t.blue.data() + j));
+    const auto mean_part = hn::Sqrt(hn::Add(hn::Add(hn::Mul(r, r), hn::Mul(g, g)), hn::Mul(b, b)));
+    auto bound = hn::Mul(speed_part, hn::Set(d, t.speed_weight));
+    bound = hn::Add(bound, hn::Mul(hn::Mul(faded, turn), hn::Set(d, t.angle_weight)));
+    bound = hn::Add(bound, hn::Mul(mean_part, hn::Set(d, t.mean_weight)));
+    bound = hn::Add(bound, hn::Mul(area_part, hn::Set(d, t.area_weight)));
+    if (hn::AllFalse(d, hn::Le(bound, limit))) continue;
+    // Highway's Compress copies its tables to the stack here (1.0.3, GCC 12).
+    HWY_ALIGN float bounds[hn::MaxLanes(d)];
+    hn::Store(bound, d, bounds);
+    const std::size_t lanes = std::min(hn::Lanes(d), end - j);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      left.column[left.count] = static_cast<std::uint32_t>(j + k);
+      left.bound[left.count] = bounds[k];
+      left.count += bounds[k] <= t.limit ? 1 : 0;
+    }
+  }
+}
+
+// Takes coarse coverage into the bounds.
+HWY_INLINE void filter_coarse(const PairTable& t, std::size_t i, Left& left) {
+  const std::int16_t* coarse = t.coarse.data() + i * t.coarse_size;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < left.count; ++n) {
+    const std::uint32_t j = left.column[n];
+    float weight = t.alpha_weight;
+    if (t.per_area) weight /= std::max(t.coverage[i] + t.coverage[j], 1.0f) / 2;
+    const float bound =
+        left.bound[n] + weight * static_cast<float>(coarse_difference(
+                                     coarse, t.coarse.data() + j * t.coarse_size, t.coarse_size));
+    left.column[count] = j;
+    left.bound[count] = bound;
+    count += bound <= t.limit ? 1 : 0;
+  }
+  left.count = count;
+}
+
+// The largest colour sum that keeps the bound within the limit.
+HWY_INLINE std::uint64_t color_budget(const PairTable& t, std::size_t i, std::size_t j,
+                                      float bound) {
+  const double most = static_cast<double>(t.limit - bound) / t.color_weight;
+  const double unit =
+      t.per_area ? static_cast<double>(std::max(t.coverage[i] + t.coverage[j], 1.0f)) / 2 : 1;
+  return static_cast<std::uint64_t>(std::min(most * most * unit, 9e18));
+}
+
+std::size_t FilterRow(const PairTable& t, std::size_t i, std::size_t begin, std::size_t end,
+                      Candidate* out, std::uint64_t& compared) {
+  Left left;
+  left.count = 0;
+  if (t.per_area) {
+    filter_cheap<true>(t, i, begin, end, left);
+  } else {
+    filter_cheap<false>(t, i, begin, end, left);
+  }
+  filter_coarse(t, i, left);
+  compared += left.count;
+  if (left.count == 0) return 0;
+  const CellImage& a = *t.cells[i];
+  HWY_ALIGN std::int16_t wide[kMaxGrid * kMaxGrid * 4];
+  for (std::size_t c = 0; c < a.cells.size(); c += hn::Lanes(Cells())) {
+    hn::Store(load(a.cells.data() + c), Cells(), wide + c);
+  }
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < left.count; ++n) {
+    if (n + kAhead < left.count) {
+      const std::uint8_t* next = t.cells[left.column[n + kAhead]]->cells.data();
+      for (int k = 0; k < kBlocksBetweenChecks; ++k) hwy::Prefetch(next + k * kBlockBytes);
+    }
+    const std::size_t j = left.column[n];
+    Candidate& candidate = out[count];
+    candidate.j = left.column[n];
+    if (compare(a, wide, *t.cells[j], color_budget(t, i, j, left.bound[n]), candidate.sums))
+      ++count;
+  }
+  return count;
+}
+
+}  // namespace vsprite::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vsprite::detail {
+
+HWY_EXPORT(CompareCells);
+HWY_EXPORT(FilterRow);
+
+PairSums compare_cells(const CellImage& a, const CellImage& b) noexcept {
+  return HWY_DYNAMIC_DISPATCH(CompareCells)(a, b);
+}
+
+std::size_t filter_row(const PairTable& table, std::size_t i, std::size_t begin, std::size_t end,
+                       Candidate* out, std::uint64_t& compared) noexcept {
+  return HWY_DYNAMIC_DISPATCH(FilterRow)(table, i, begin, end, out, compared);
+}
+
+std::vector<const char*> kernel_targets() {
+  std::vector<const char*> names;
+  hwy::SetSupportedTargetsForTest(0);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    names.push_back(hwy::TargetName(target));
+  }
+  return names;
+}
+
+void use_kernel_target(int k) {
+  hwy::SetSupportedTargetsForTest(0);
+  if (k >= 0) {
+    hwy::SetSupportedTargetsForTest(
+        hwy::SupportedAndGeneratedTargets()[static_cast<std::size_t>(k)]);
+  }
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
+const char* kernel_target() noexcept {
+  const auto targets = hwy::SupportedAndGeneratedTargets();
+  return targets.empty() ? "none" : hwy::TargetName(targets.front());
+}
+
+}  // namespace vsprite::detail
+#endif  // HWY_ONCE
