@@ -7,7 +7,7 @@ build="$here/build/release"
 
 play_packages="g++ cmake ninja-build pkg-config libsdl2-dev libepoxy-dev libpng-dev libzstd-dev
   libxxhash-dev libavformat-dev libavcodec-dev libswscale-dev libeigen3-dev libtbb-dev libcli11-dev
-  libtomlplusplus-dev nlohmann-json3-dev ffmpeg"
+  libtomlplusplus-dev nlohmann-json3-dev libhwy-dev ffmpeg"
 test_packages="$play_packages libgtest-dev strace xvfb xauth xdotool"
 
 say() { printf '\033[1m==>\033[0m %s\n' "$*"; }
