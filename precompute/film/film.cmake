@@ -11,8 +11,10 @@ target_sources(vsprite_precompute PRIVATE
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp
+  film/subject.cpp
   film/extract.cpp
   film/contact.cpp
+  film/checkup.cpp
 )
 
 # Nobody reads errno after a square root, or traps on a comparison; without them the loops over cells
