@@ -30,50 +30,55 @@ inline float encode(float x) {
   return x < 0.0031308f ? 3294.6f * x : curve;
 }
 
-int count_different(const std::uint8_t* __restrict top, const std::uint8_t* __restrict low,
-                    const std::uint8_t* __restrict cb, const std::uint8_t* __restrict cr,
-                    const std::uint16_t* __restrict plate_y,
-                    const std::uint8_t* __restrict plate_cb,
-                    const std::uint8_t* __restrict plate_cr, int n, const RowLimits& limits) {
-  int count = 0;
-  int i = 0;
+void count_different(const std::uint8_t* __restrict top, const std::uint8_t* __restrict low,
+                     const std::uint8_t* __restrict cb, const std::uint8_t* __restrict cr,
+                     const std::uint16_t* __restrict plate_y,
+                     const std::uint8_t* __restrict plate_cb,
+                     const std::uint8_t* __restrict plate_cr, int n, int block,
+                     const RowLimits* __restrict limits, int* __restrict counts) {
+  for (int first = 0; first < n; first += block, ++limits, ++counts) {
+    const int end = std::min(first + block, n);
+    const RowLimits limit = *limits;
+    int count = 0;
+    int i = first;
 #if HWY_TARGET != HWY_SCALAR
-  namespace hn = hwy::HWY_NAMESPACE;
-  const hn::CappedTag<std::uint16_t, 32> d;
-  const hn::RebindToSigned<decltype(d)> di;
-  const hn::Rebind<std::uint8_t, decltype(d)> db;
-  const hn::Repartition<std::uint8_t, decltype(d)> wide;
-  const int lanes_count = static_cast<int>(hn::Lanes(d));
-  const auto low_byte = hn::Set(d, 0xFF);
-  const auto pairs = [&](const std::uint8_t* p) {
-    const auto v = hn::BitCast(d, hn::LoadU(wide, p));
-    return hn::Add(hn::And(v, low_byte), hn::ShiftRight<8>(v));
-  };
-  const auto color = [&](const std::uint8_t* a, const std::uint8_t* b, std::int16_t shift) {
-    const auto va = hn::BitCast(di, hn::PromoteTo(d, hn::LoadU(db, a)));
-    const auto vb = hn::BitCast(di, hn::PromoteTo(d, hn::LoadU(db, b)));
-    return hn::Abs(hn::Sub(hn::Sub(va, vb), hn::Set(di, shift)));
-  };
-  for (; i + lanes_count <= n; i += lanes_count) {
-    const auto sum = hn::Add(pairs(top + 2 * i), pairs(low + 2 * i));
-    const auto y =
-        hn::Abs(hn::Sub(hn::Sub(hn::BitCast(di, sum), hn::BitCast(di, hn::LoadU(d, plate_y + i))),
-                        hn::Set(di, limits.shift_y)));
-    const auto c = hn::Max(color(cb + i, plate_cb + i, limits.shift_cb),
-                           color(cr + i, plate_cr + i, limits.shift_cr));
-    const auto out =
-        hn::Or(hn::Gt(y, hn::Set(di, limits.limit_y)), hn::Gt(c, hn::Set(di, limits.limit_c)));
-    count += static_cast<int>(hn::CountTrue(di, out));
-  }
+    namespace hn = hwy::HWY_NAMESPACE;
+    const hn::CappedTag<std::uint16_t, 32> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Rebind<std::uint8_t, decltype(d)> db;
+    const hn::Repartition<std::uint8_t, decltype(d)> wide;
+    const int step = static_cast<int>(hn::Lanes(d));
+    const auto low_byte = hn::Set(d, 0xFF);
+    const auto pairs = [&](const std::uint8_t* p) {
+      const auto v = hn::BitCast(d, hn::LoadU(wide, p));
+      return hn::Add(hn::And(v, low_byte), hn::ShiftRight<8>(v));
+    };
+    const auto color = [&](const std::uint8_t* a, const std::uint8_t* b, std::int16_t shift) {
+      const auto va = hn::BitCast(di, hn::PromoteTo(d, hn::LoadU(db, a)));
+      const auto vb = hn::BitCast(di, hn::PromoteTo(d, hn::LoadU(db, b)));
+      return hn::Abs(hn::Sub(hn::Sub(va, vb), hn::Set(di, shift)));
+    };
+    for (; i + step <= end; i += step) {
+      const auto sum = hn::Add(pairs(top + 2 * i), pairs(low + 2 * i));
+      const auto plate = hn::BitCast(di, hn::LoadU(d, plate_y + i));
+      const auto y =
+          hn::Abs(hn::Sub(hn::Sub(hn::BitCast(di, sum), plate), hn::Set(di, limit.shift_y)));
+      const auto c = hn::Max(color(cb + i, plate_cb + i, limit.shift_cb),
+                             color(cr + i, plate_cr + i, limit.shift_cr));
+      const auto out =
+          hn::Or(hn::Gt(y, hn::Set(di, limit.limit_y)), hn::Gt(c, hn::Set(di, limit.limit_c)));
+      count += static_cast<int>(hn::CountTrue(di, out));
+    }
 #endif
-  for (; i < n; ++i) {
-    const int sum = top[2 * i] + top[2 * i + 1] + low[2 * i] + low[2 * i + 1];
-    const int y = std::abs(sum - plate_y[i] - limits.shift_y);
-    const int b = std::abs(cb[i] - plate_cb[i] - limits.shift_cb);
-    const int r = std::abs(cr[i] - plate_cr[i] - limits.shift_cr);
-    count += y > limits.limit_y || std::max(b, r) > limits.limit_c;
+    for (; i < end; ++i) {
+      const int sum = top[2 * i] + top[2 * i + 1] + low[2 * i] + low[2 * i + 1];
+      const int y = std::abs(sum - plate_y[i] - limit.shift_y);
+      const int b = std::abs(cb[i] - plate_cb[i] - limit.shift_cb);
+      const int r = std::abs(cr[i] - plate_cr[i] - limit.shift_cr);
+      count += y > limit.limit_y || std::max(b, r) > limit.limit_c;
+    }
+    *counts += count;
   }
-  return count;
 }
 
 void sum_cells(const RgbOfYcc& m, const std::uint8_t* __restrict top,

@@ -74,11 +74,12 @@ struct PaintRow {
 };
 
 struct Lanes {
-  /// How many of n cells differ from the plate by more than the limits.
-  int (*count_different)(const std::uint8_t* top, const std::uint8_t* low, const std::uint8_t* cb,
-                         const std::uint8_t* cr, const std::uint16_t* plate_y,
-                         const std::uint8_t* plate_cb, const std::uint8_t* plate_cr, int n,
-                         const RowLimits& limits);
+  /// Adds to each count how many of a run of `block` cells differ from the plate by more than that
+  /// run's limits; n cells in all.
+  void (*count_different)(const std::uint8_t* top, const std::uint8_t* low, const std::uint8_t* cb,
+                          const std::uint8_t* cr, const std::uint16_t* plate_y,
+                          const std::uint8_t* plate_cb, const std::uint8_t* plate_cr, int n,
+                          int block, const RowLimits* limits, int* counts);
   /// Sums of four encoded R, G, B, 0..1020, of whole cells.
   void (*sum_cells)(const RgbOfYcc& matrix, const std::uint8_t* top, const std::uint8_t* low,
                     const std::uint8_t* cb, const std::uint8_t* cr, int n, std::uint16_t* red,

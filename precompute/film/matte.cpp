@@ -222,11 +222,27 @@ void Keyer::Impl::measure_own_color() {
 
 namespace {
 
-// Four alphas of a cell.
-struct CellAlpha {
-  int left_top, right_top, left_low, right_low;
-  int sum() const { return left_top + right_top + left_low + right_low; }
+// Alphas of a run of cells, two rows of pixels: their sum, that of the right and lower pixels, and
+// the sum times the cell's number.
+struct RunSums {
+  int all = 0, right = 0, low = 0;
+  std::int64_t moment = 0;
 };
+
+RunSums sum_run(const std::uint8_t* top, const std::uint8_t* low, int begin, int end) {
+  RunSums sums;
+  int moment = 0;  // below 2^31 for any run: 16,384 cells of 1,020
+  for (int x = begin; x < end; ++x) {
+    const int left = top[2 * x] + low[2 * x];
+    const int right = top[2 * x + 1] + low[2 * x + 1];
+    sums.all += left + right;
+    sums.right += right;
+    sums.low += low[2 * x] + low[2 * x + 1];
+    moment += (left + right) * (x - begin);
+  }
+  sums.moment = moment + std::int64_t{begin} * sums.all;
+  return sums;
+}
 
 // A part of the matte, in sums of alpha 0..255 over pixels.
 struct Part {
@@ -243,15 +259,16 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
   const int w = patch.width;
   Mask covered(w, patch.height);
   Mask solid(w, patch.height);
-  const auto alphas = [&](int cx, int cy) {
-    const std::uint8_t* a =
-        alpha.data() + 2 * static_cast<std::size_t>(cy) * stride + 2 * static_cast<std::size_t>(cx);
-    const bool low = 2 * cy + 1 < height;
-    return CellAlpha{a[0], a[1], low ? a[stride] : 0, low ? a[stride + 1] : 0};
+  const std::vector<std::uint8_t> nothing(stride);
+  const auto top_row = [&](int cy) {
+    return alpha.data() + 2 * static_cast<std::size_t>(cy) * stride;
+  };
+  const auto low_row = [&](int cy) {
+    return 2 * cy + 1 < height ? top_row(cy) + stride : nothing.data();
   };
   for (int cy = 0; cy < patch.height; ++cy) {
-    const std::uint8_t* a = alpha.data() + 2 * static_cast<std::size_t>(cy) * stride;
-    const std::uint8_t* b = 2 * cy + 1 < height ? a + stride : a;
+    const std::uint8_t* a = top_row(cy);
+    const std::uint8_t* b = low_row(cy);
     std::uint8_t* some = covered.row(cy);
     std::uint8_t* half = solid.row(cy);
     for (int cx = 0; cx < w; ++cx) {
@@ -261,26 +278,35 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
     }
   }
   const int count = connected_parts(dilate(covered, 1), labels);
-  std::vector<Part> parts(static_cast<std::size_t>(count) + 1);
-  for (int cy = 0; cy < patch.height; ++cy)
-    for (int cx = 0; cx < w; ++cx) {
-      const std::size_t i =
-          static_cast<std::size_t>(cy) * static_cast<std::size_t>(w) + static_cast<std::size_t>(cx);
-      if (!covered.in[i]) labels[i] = 0;
-      if (!labels[i]) continue;
-      Part& part = parts[static_cast<std::size_t>(labels[i])];
-      part.label = labels[i];
-      part.seeds += patch.seeds.in[i];
-      const CellAlpha a = alphas(cx, cy);
-      part.area += a.sum();
-      if (a.left_top + a.left_low) part.left = std::min(part.left, 2 * cx);
-      if (a.right_top + a.right_low) part.left = std::min(part.left, 2 * cx + 1);
-      if (a.right_top + a.right_low) part.right = std::max(part.right, 2 * cx + 2);
-      if (a.left_top + a.left_low) part.right = std::max(part.right, 2 * cx + 1);
-      if (a.left_top + a.right_top) part.top = std::min(part.top, 2 * cy);
-      if (a.left_low + a.right_low) part.top = std::min(part.top, 2 * cy + 1);
-      part.bottom = std::max(part.bottom, a.left_low + a.right_low ? 2 * cy + 2 : 2 * cy + 1);
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = covered.in[i] ? labels[i] : 0;
+  // Calls `with` for every run of one label, of cells that `in` admits.
+  const auto each_run = [&](const Mask& in, auto with) {
+    for (int cy = 0; cy < patch.height; ++cy) {
+      const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * w;
+      const std::uint8_t* admitted = in.row(cy);
+      for (int cx = 0; cx < w;) {
+        const int of = admitted[cx] ? label[cx] : 0;
+        int end = cx + 1;
+        while (end < w && (admitted[end] ? label[end] : 0) == of) ++end;
+        if (of) with(of, cy, cx, end);
+        cx = end;
+      }
     }
+  };
+  std::vector<Part> parts(static_cast<std::size_t>(count) + 1);
+  each_run(covered, [&](int label, int cy, int begin, int end) {
+    Part& part = parts[static_cast<std::size_t>(label)];
+    const std::uint8_t* a = top_row(cy);
+    const std::uint8_t* b = low_row(cy);
+    const RunSums sums = sum_run(a, b, begin, end);
+    part.label = label;
+    part.area += sums.all;
+    for (int cx = begin; cx < end; ++cx) part.seeds += patch.seeds.row(cy)[cx];
+    part.left = std::min(part.left, 2 * begin + (a[2 * begin] || b[2 * begin] ? 0 : 1));
+    part.right = std::max(part.right, 2 * end - (a[2 * end - 1] || b[2 * end - 1] ? 0 : 1));
+    part.top = std::min(part.top, 2 * cy + (sums.all > sums.low ? 0 : 1));
+    part.bottom = std::max(part.bottom, 2 * cy + (sums.low ? 2 : 1));
+  });
   std::vector<Part> kept;
   for (const Part& part : parts)
     if (part.label && part.seeds) kept.push_back(part);
@@ -301,24 +327,31 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
     const Mask opened =
         radius > 0 ? dilate(dilate_disc(erode_disc(solid, radius), radius), 1) : covered;
     std::vector<char> now(kept.size() + 1, 0);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      const auto label = static_cast<std::size_t>(labels[i]);
-      if (!label || !opened.in[i] || anchored[label]) continue;
-      now[label] = 1;
-      Part& part = kept[label - 1];
-      const int cx = static_cast<int>(i % static_cast<std::size_t>(w));
-      const int cy = static_cast<int>(i / static_cast<std::size_t>(w));
-      const CellAlpha a = alphas(cx, cy);
-      part.weight += a.sum();
-      part.x += std::int64_t{a.sum()} * (4 * cx + 1) + 2 * (a.right_top + a.right_low);
-      part.y += std::int64_t{a.sum()} * (4 * cy + 1) + 2 * (a.left_low + a.right_low);
-    }
+    each_run(opened, [&](int label, int cy, int begin, int end) {
+      const auto k = static_cast<std::size_t>(label);
+      if (anchored[k]) return;
+      now[k] = 1;
+      Part& part = kept[k - 1];
+      const RunSums sums = sum_run(top_row(cy), low_row(cy), begin, end);
+      part.weight += sums.all;
+      part.x += 4 * sums.moment + sums.all + 2 * sums.right;
+      part.y += std::int64_t{sums.all} * (4 * cy + 1) + 2 * sums.low;
+    });
     for (std::size_t k = 1; k < now.size(); ++k)
       if (now[k]) {
         anchored[k] = 1;
         --missing;
       }
     if (radius == 0) break;
+  }
+  // What is of no part is not there.
+  for (int cy = 0; cy < patch.height; ++cy) {
+    const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * w;
+    for (int cx = 0; cx < w; ++cx)
+      if (!label[cx] && covered.row(cy)[cx])
+        for (int y = 2 * cy; y < std::min(2 * cy + 2, height); ++y)
+          std::fill_n(alpha.data() + static_cast<std::size_t>(y) * stride + 2 * cx, 2,
+                      std::uint8_t{0});
   }
   // Contact with the film's border: more than a fifth covered there.
   const auto look_at = [&](int x, int y) {
@@ -436,12 +469,9 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
       if (high > low)
         std::copy(source + 4 * (low - from), source + 4 * (high - from),
                   out + 4 * (row_start + low));
-      for (int x = low; x < high; ++x) {
-        const int name = label[x / 2];
-        const bool shown = name != 0 && alpha[at + static_cast<std::size_t>(x)] != 0;
-        names[row_start + x] = shown ? static_cast<std::uint8_t>(name) : std::uint8_t{0};
-        if (!shown) std::fill_n(out + 4 * (row_start + x), 4, std::uint8_t{0});
-      }
+      const std::uint8_t* shown = alpha.data() + at;
+      for (int x = low; x < high; ++x)
+        names[row_start + x] = shown[x] ? static_cast<std::uint8_t>(label[x / 2]) : std::uint8_t{0};
       begin = end;
     }
   }

@@ -163,56 +163,64 @@ constexpr int kBlockHigh = 4;
 constexpr int kWindowMargin = 8;
 constexpr int kFewest = 3;  // different cells that make a block worth a look
 
-// Limits of a block of cells: those of the silhouette less what smoothing and drift may add.
-RowLimits limits_of(const ScreenModel& screen, const Surface& drift, double u, double v) {
-  const YccOfRgb m = ycc_of_rgb(screen.plate.coding);
-  const float r = static_cast<float>(drift.at(0, u, v));
-  const float g = static_cast<float>(drift.at(1, u, v));
-  const float b = static_cast<float>(drift.at(2, u, v));
-  const float y = m.red * r + m.green * g + m.blue * b;
+// Limits of every block of a row: those of the silhouette less what smoothing may add, about the
+// frame's own drift.
+void set_limits(const ScreenModel& screen, const YccOfRgb& m, const Surface& drift, double v,
+                int width, std::vector<RowLimits>& limits) {
+  const RowTerms red = row_of(drift, 0, v);
+  const RowTerms green = row_of(drift, 1, v);
+  const RowTerms blue = row_of(drift, 2, v);
   const auto whole = [](float x) {
     return static_cast<std::int16_t>(std::clamp(x < 0 ? x - 0.5f : x + 0.5f, -2000.0f, 2000.0f));
   };
-  return {whole(4 * m.luma * y), whole(4 * m.luma * 0.6f * screen.threshold),
-          whole(m.color * (b - y) / (2 - 2 * m.blue)), whole(m.color * (r - y) / (2 - 2 * m.red)),
-          whole(m.color * 0.45f * screen.threshold)};
+  const std::int16_t limit_y = whole(4 * m.luma * 0.6f * screen.threshold);
+  const std::int16_t limit_c = whole(m.color * 0.45f * screen.threshold);
+  const RowScale scale = scale_of(0, width);
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    const int middle = std::min(static_cast<int>(k) * kBlockWide + kBlockWide / 2, width - 1);
+    const float u = scale.first + scale.step * static_cast<float>(middle);
+    const auto at = [u](const RowTerms& t) { return t.a + u * (t.b + u * t.c); };
+    const float r = at(red);
+    const float b = at(blue);
+    const float y = m.red * r + m.green * at(green) + m.blue * b;
+    limits[k] = {whole(4 * m.luma * y), limit_y, whole(m.color * (b - y) / (2 - 2 * m.blue)),
+                 whole(m.color * (r - y) / (2 - 2 * m.red)), limit_c};
+  }
 }
 
 // The rectangle of all blocks that differ from the plate; most blocks of most frames end here.
 Window find_window(const ScreenModel& screen, const Frame& frame, const Surface& drift) {
   const int w = frame.cell_width();
   const int h = frame.cell_height();
-  const int whole = frame.width / 2;
+  const YccOfRgb m = ycc_of_rgb(screen.plate.coding);
+  std::vector<RowLimits> limits(static_cast<std::size_t>((w + kBlockWide - 1) / kBlockWide));
+  std::vector<int> counts(limits.size());
   int left = w;
   int right = 0;
   int top = h;
   int bottom = 0;
-  for (int y = 0; y < h; y += kBlockHigh)
-    for (int x = 0; x < w; x += kBlockWide) {
-      const int n = std::min(kBlockWide, whole - x);
-      const RowLimits limits =
-          limits_of(screen, drift, scaled(std::min(x + kBlockWide / 2, w - 1), w),
-                    scaled(std::min(y + kBlockHigh / 2, h - 1), h));
-      int count = 0;
-      for (int row = y; row < std::min(y + kBlockHigh, h); ++row) {
-        const std::size_t pixel =
-            static_cast<std::size_t>(2 * row) * static_cast<std::size_t>(frame.width) +
-            static_cast<std::size_t>(2 * x);
-        const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(w) +
-                                 static_cast<std::size_t>(x);
-        const std::uint8_t* first = frame.y.data() + pixel;
-        const std::uint8_t* second = 2 * row + 1 < frame.height ? first + frame.width : first;
-        count +=
-            lanes().count_different(first, second, frame.cb.data() + cell, frame.cr.data() + cell,
-                                    screen.cell_luma.data() + cell, screen.plate.cb.data() + cell,
-                                    screen.plate.cr.data() + cell, n, limits);
-      }
-      if (count < kFewest) continue;
+  for (int y = 0; y < h; y += kBlockHigh) {
+    set_limits(screen, m, drift, scaled(std::min(y + kBlockHigh / 2, h - 1), h), w, limits);
+    std::fill(counts.begin(), counts.end(), 0);
+    for (int row = y; row < std::min(y + kBlockHigh, h); ++row) {
+      const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(w);
+      const std::uint8_t* first = frame.y.data() + static_cast<std::size_t>(2 * row) *
+                                                       static_cast<std::size_t>(frame.width);
+      const std::uint8_t* second = 2 * row + 1 < frame.height ? first + frame.width : first;
+      lanes().count_different(first, second, frame.cb.data() + cell, frame.cr.data() + cell,
+                              screen.cell_luma.data() + cell, screen.plate.cb.data() + cell,
+                              screen.plate.cr.data() + cell, frame.width / 2, kBlockWide,
+                              limits.data(), counts.data());
+    }
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      if (counts[k] < kFewest) continue;
+      const int x = static_cast<int>(k) * kBlockWide;
       left = std::min(left, x);
       right = std::max(right, x + kBlockWide);
       top = std::min(top, y);
-      bottom = std::max(bottom, y + kBlockHigh);
+      bottom = y + kBlockHigh;
     }
+  }
   if (right <= left) return {};
   left = std::max(left - kWindowMargin, 0);
   top = std::max(top - kWindowMargin, 0);

@@ -173,15 +173,18 @@ void gather_moments(Patch& patch, const std::vector<float>& weight,
     lanes().moments(weight.data() + top, both ? weight.data() + low : nullptr, first.at, second.at,
                     patch.width, out);
   }
+  const std::vector<float> nothing(static_cast<std::size_t>(w));
   for (int k = 0; k < kMoments; ++k) {
     auto& near = patch.near[k];
     auto& wide = patch.wide[k];
     wide.assign(static_cast<std::size_t>(ww) * static_cast<std::size_t>(wh), 0);
     double all = 0;
-    for (int y = 0; y < h; ++y) {
-      const float* in = near.data() + static_cast<std::ptrdiff_t>(y) * w;
-      float* out = wide.data() + static_cast<std::ptrdiff_t>(y / 2) * ww;
-      for (int x = 0; x < w; ++x) out[x / 2] += 0.25f * in[x];
+    for (int y = 0; y < wh; ++y) {
+      const float* first = near.data() + static_cast<std::ptrdiff_t>(2 * y) * w;
+      const float* second = 2 * y + 1 < h ? first + w : nothing.data();
+      float* out = wide.data() + static_cast<std::ptrdiff_t>(y) * ww;
+      lanes().halve(first, second, w / 2, out);
+      if (w % 2) out[ww - 1] = 0.25f * (first[w - 1] + second[w - 1]);
     }
     for (const float value : wide) all += static_cast<double>(value);
     blur(wide, ww, wh, 2, 3, patch.scratch);

@@ -50,11 +50,12 @@ TEST(Lanes, ClassifyAsTheFormulaDoes) {
         testing::plain_count_different(y.data(), y.data() + 2 * kCells, cb.data(), cr.data(),
                                        py.data(), pb.data(), pr.data(), n, limits);
     on_every_target([&](const char* target) {
-      EXPECT_EQ(
-          detail::lanes().count_different(y.data(), y.data() + 2 * kCells, cb.data(), cr.data(),
-                                          py.data(), pb.data(), pr.data(), n, limits),
-          due)
-          << target << ", " << n << " cells";
+      const std::vector<detail::RowLimits> all(3, limits);
+      std::vector<int> counts(3);
+      detail::lanes().count_different(y.data(), y.data() + 2 * kCells, cb.data(), cr.data(),
+                                      py.data(), pb.data(), pr.data(), n, 32, all.data(),
+                                      counts.data());
+      EXPECT_EQ(counts[0] + counts[1] + counts[2], due) << target << ", " << n << " cells";
     });
   }
 }
