@@ -5,6 +5,7 @@ target_sources(vsprite_precompute PRIVATE
   film/decoder.cpp
   film/color.cpp
   film/light.cpp
+  film/lanes.cpp
   film/grid.cpp
   film/silhouette.cpp
   film/plate.cpp
@@ -16,7 +17,8 @@ target_sources(vsprite_precompute PRIVATE
   film/checkup.cpp
 )
 
-# Nobody reads errno after a square root; without it the loops over cells are vectorised. The
-# results are the same bytes. The scope is that of precompute/, where these files are compiled.
+# Nobody reads errno after a square root, or traps on a comparison; without them the loops over cells
+# become lanes. The results are the same bytes. The scope is that of precompute/, where these files
+# are compiled.
 set_source_files_properties(film/silhouette.cpp film/unmix.cpp film/matte.cpp film/grid.cpp
-  PROPERTIES COMPILE_OPTIONS -fno-math-errno)
+  film/lanes.cpp PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")

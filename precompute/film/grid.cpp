@@ -5,118 +5,88 @@
 #include "film/grid.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "film/color.h"
+#include "film/lanes.h"
 
 namespace vsprite::detail {
 
-void make_grid(const Frame& frame, Grid& grid) {
-  grid.width = frame.cell_width();
-  grid.height = frame.cell_height();
+void make_grid(const Frame& frame, const Window& window, Grid& grid) {
+  grid.left = window.left;
+  grid.top = window.top;
+  grid.width = window.width;
+  grid.height = window.height;
   for (auto& plane : grid.plane) plane.resize(grid.cells());
   const RgbOfYcc m = rgb_of_ycc(frame.coding);
-  const std::size_t stride = static_cast<std::size_t>(frame.width);
-  std::size_t i = 0;
+  const auto stride = static_cast<std::size_t>(frame.width);
+  const auto cell_stride = static_cast<std::size_t>(frame.cell_width());
+  const int whole = std::min(window.width, frame.width / 2 - window.left);
   for (int y = 0; y < grid.height; ++y) {
-    const std::uint8_t* top = frame.y.data() + static_cast<std::size_t>(2 * y) * stride;
-    const std::uint8_t* low = 2 * y + 1 < frame.height ? top + stride : top;
-    for (int x = 0; x < grid.width; ++x, ++i) {
-      const int left = 2 * x;
-      const int right = std::min(left + 1, frame.width - 1);
-      const int sum = top[left] + top[right] + low[left] + low[right];
-      const auto rgb = m.sums(sum, frame.cb[i], frame.cr[i], 4);
-      for (std::size_t c = 0; c < 3; ++c) grid.plane[2 - c][i] = static_cast<std::uint16_t>(rgb[c]);
+    const int pixel_row = 2 * (window.top + y);
+    const std::uint8_t* top = frame.y.data() + static_cast<std::size_t>(pixel_row) * stride +
+                              2 * static_cast<std::size_t>(window.left);
+    const std::uint8_t* low = pixel_row + 1 < frame.height ? top + stride : top;
+    const std::size_t from = static_cast<std::size_t>(window.top + y) * cell_stride +
+                             static_cast<std::size_t>(window.left);
+    const std::size_t to = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width);
+    const auto out = [&](std::size_t p) { return grid.plane[p].data() + to; };
+    lanes().sum_cells(m, top, low, frame.cb.data() + from, frame.cr.data() + from, whole, out(0),
+                      out(1), out(2));
+    for (int x = whole; x < window.width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      const auto rgb =
+          m.sums(2 * (top[2 * x] + low[2 * x]), frame.cb[from + i], frame.cr[from + i], 4);
+      for (std::size_t p = 0; p < 3; ++p) out(p)[x] = static_cast<std::uint16_t>(rgb[p]);
     }
   }
 }
 
+void make_grid(const Frame& frame, Grid& grid) {
+  make_grid(frame, {0, 0, frame.cell_width(), frame.cell_height()}, grid);
+}
+
 namespace {
 
-// One direction of a square dilation or erosion: `pick` keeps the larger or the smaller.
-template <class Pick>
-Mask spread(const Mask& mask, int radius, std::uint8_t outside, Pick pick) {
-  const int w = mask.width;
-  const int h = mask.height;
-  Mask rows(w, h);
-  for (int y = 0; y < h; ++y) {
-    const std::uint8_t* in = mask.row(y);
-    std::uint8_t* out = rows.row(y);
-    std::copy(in, in + w, out);
-    for (int k = 1; k <= radius; ++k) {
-      for (int x = 0; x + k < w; ++x) out[x] = pick(out[x], in[x + k]);
-      for (int x = k; x < w; ++x) out[x] = pick(out[x], in[x - k]);
-    }
-    for (int x = 0; x < std::min(radius, w); ++x) {
-      out[x] = pick(out[x], outside);
-      out[w - 1 - x] = pick(out[w - 1 - x], outside);
-    }
+// Columns: each row with those up to `radius` above and below.
+void spread_columns(const Mask& in, int radius, bool larger, Mask& out) {
+  const auto width = static_cast<std::size_t>(in.width);
+  for (int y = 0; y < in.height; ++y) {
+    std::uint8_t* row = out.row(y);
+    std::memcpy(row, in.row(y), width);
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, in.height - 1); ++v)
+      if (v != y) lanes().spread_into(in.row(v), width, larger, row);
   }
-  Mask both = rows;
-  for (int y = 0; y < h; ++y) {
-    std::uint8_t* out = both.row(y);
-    for (int k = -radius; k <= radius; ++k) {
-      if (y + k < 0 || y + k >= h) {
-        for (int x = 0; x < w; ++x) out[x] = pick(out[x], outside);
-        continue;
-      }
-      const std::uint8_t* in = rows.row(y + k);
-      for (int x = 0; x < w; ++x) out[x] = pick(out[x], in[x]);
-    }
-  }
+}
+
+Mask spread(const Mask& mask, int radius, bool larger) {
+  Mask rows(mask.width, mask.height);
+  for (int y = 0; y < mask.height; ++y)
+    lanes().spread_row(mask.row(y), mask.width, radius, larger, rows.row(y));
+  Mask both(mask.width, mask.height);
+  spread_columns(rows, radius, larger, both);
   return both;
 }
 
-}  // namespace
-
-Mask dilate(const Mask& mask, int radius) {
-  return spread(mask, radius, 0, [](std::uint8_t a, std::uint8_t b) { return std::max(a, b); });
+// One step to the four neighbours.
+Mask spread_cross(const Mask& mask, bool larger) {
+  Mask out(mask.width, mask.height);
+  const auto width = static_cast<std::size_t>(mask.width);
+  for (int y = 0; y < mask.height; ++y) {
+    lanes().spread_row(mask.row(y), mask.width, 1, larger, out.row(y));
+    if (y > 0) lanes().spread_into(mask.row(y - 1), width, larger, out.row(y));
+    if (y + 1 < mask.height) lanes().spread_into(mask.row(y + 1), width, larger, out.row(y));
+  }
+  return out;
 }
 
-Mask erode(const Mask& mask, int radius) {
-  return spread(mask, radius, 1, [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+// Squares and crosses in the proportion that makes an octagon.
+Mask spread_disc(const Mask& mask, int radius, bool larger) {
+  const int square = (5 * radius + 6) / 12;
+  Mask out = spread(mask, square, larger);
+  for (int k = square; k < radius; ++k) out = spread_cross(out, larger);
+  return out;
 }
-
-std::vector<std::uint16_t> distance_to(const Mask& mask, std::uint8_t value) {
-  constexpr int kFar = 30'000;
-  const int w = mask.width;
-  const int h = mask.height;
-  std::vector<std::uint16_t> distance(mask.in.size());
-  const auto at = [&](int x, int y) -> int {
-    if (x < 0 || y < 0 || x >= w || y >= h) return kFar;
-    return distance[static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
-                    static_cast<std::size_t>(x)];
-  };
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x) {
-      const std::size_t i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-      int best = mask.in[i] == value ? 0 : kFar;
-      best = std::min(
-          {best, at(x - 1, y) + 5, at(x, y - 1) + 5, at(x - 1, y - 1) + 7, at(x + 1, y - 1) + 7});
-      distance[i] = static_cast<std::uint16_t>(best);
-    }
-  for (int y = h - 1; y >= 0; --y)
-    for (int x = w - 1; x >= 0; --x) {
-      const std::size_t i =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
-      const int best = std::min({static_cast<int>(distance[i]), at(x + 1, y) + 5, at(x, y + 1) + 5,
-                                 at(x + 1, y + 1) + 7, at(x - 1, y + 1) + 7});
-      distance[i] = static_cast<std::uint16_t>(best);
-    }
-  return distance;
-}
-
-Mask open_disc(const Mask& mask, int radius) {
-  const auto depth = distance_to(mask, 0);
-  Mask core(mask.width, mask.height);
-  for (std::size_t i = 0; i < core.in.size(); ++i) core.in[i] = depth[i] > 5 * radius ? 1 : 0;
-  const auto reach = distance_to(core, 1);
-  for (std::size_t i = 0; i < core.in.size(); ++i)
-    core.in[i] = mask.in[i] && reach[i] <= 5 * radius ? 1 : 0;
-  return core;
-}
-
-namespace {
 
 // Rows: a running sum in double, so that what leaves the box leaves nothing behind; small boxes
 // directly.
@@ -181,6 +151,11 @@ void blur_columns(const float* in, float* out, int width, int height, int radius
 
 }  // namespace
 
+Mask dilate(const Mask& mask, int radius) { return spread(mask, radius, true); }
+Mask erode(const Mask& mask, int radius) { return spread(mask, radius, false); }
+Mask dilate_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, true); }
+Mask erode_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, false); }
+
 void blur(std::vector<float>& plane, int width, int height, int radius, int passes,
           std::vector<float>& scratch) {
   scratch.resize(plane.size());
@@ -190,30 +165,75 @@ void blur(std::vector<float>& plane, int width, int height, int radius, int pass
   }
 }
 
-int connected_parts(const Mask& mask, std::vector<int>& labels) {
-  const int w = mask.width;
-  labels.assign(mask.in.size(), 0);
-  std::vector<int> todo;
-  int count = 0;
-  for (std::size_t first = 0; first < mask.in.size(); ++first) {
-    if (!mask.in[first] || labels[first]) continue;
-    labels[first] = ++count;
-    todo.push_back(static_cast<int>(first));
-    while (!todo.empty()) {
-      const int cell = todo.back();
-      todo.pop_back();
-      const int cx = cell % w;
-      const int cy = cell / w;
-      for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, mask.height - 1); ++y)
-        for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, w - 1); ++x) {
-          const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(w) +
-                                static_cast<std::size_t>(x);
-          if (!mask.in[i] || labels[i]) continue;
-          labels[i] = count;
-          todo.push_back(static_cast<int>(i));
-        }
-    }
+namespace {
+
+struct Run {
+  int begin, end, part;
+};
+
+int root_of(std::vector<int>& parent, int part) {
+  while (parent[static_cast<std::size_t>(part)] != part) {
+    auto& up = parent[static_cast<std::size_t>(part)];
+    up = parent[static_cast<std::size_t>(up)];
+    part = up;
   }
+  return part;
+}
+
+// Runs of a row; those that touch a run of the row above, corners too, are of its part.
+void join_row(const std::uint8_t* in, int width, const std::vector<Run>& above,
+              std::vector<Run>& runs, std::vector<int>& parent) {
+  runs.clear();
+  std::size_t first = 0;
+  for (int x = 0; x < width;) {
+    const auto left = static_cast<std::size_t>(width - x);
+    const void* found = std::memchr(in + x, 1, left);
+    if (!found) return;
+    const int begin = static_cast<int>(static_cast<const std::uint8_t*>(found) - in);
+    const void* out = std::memchr(in + begin, 0, static_cast<std::size_t>(width - begin));
+    const int end = out ? static_cast<int>(static_cast<const std::uint8_t*>(out) - in) : width;
+    int part = -1;
+    while (first < above.size() && above[first].end < begin) ++first;
+    for (std::size_t k = first; k < above.size() && above[k].begin <= end; ++k) {
+      const int other = root_of(parent, above[k].part);
+      if (part < 0) {
+        part = other;
+      } else if (other != part) {
+        parent[static_cast<std::size_t>(std::max(part, other))] = std::min(part, other);
+        part = std::min(part, other);
+      }
+    }
+    if (part < 0) {
+      part = static_cast<int>(parent.size());
+      parent.push_back(part);
+    }
+    runs.push_back({begin, end, part});
+    x = end;
+  }
+}
+
+}  // namespace
+
+int connected_parts(const Mask& mask, std::vector<int>& labels) {
+  labels.assign(mask.in.size(), 0);
+  std::vector<int> parent{0};
+  std::vector<std::vector<Run>> rows(static_cast<std::size_t>(mask.height));
+  const std::vector<Run> none;
+  for (int y = 0; y < mask.height; ++y) {
+    const auto row = static_cast<std::size_t>(y);
+    join_row(mask.row(y), mask.width, y > 0 ? rows[row - 1] : none, rows[row], parent);
+  }
+  std::vector<int> number(parent.size());
+  int count = 0;
+  for (std::size_t part = 1; part < parent.size(); ++part)
+    number[part] = parent[part] == static_cast<int>(part)
+                       ? ++count
+                       : number[static_cast<std::size_t>(root_of(parent, static_cast<int>(part)))];
+  for (std::size_t y = 0; y < rows.size(); ++y)
+    for (const Run& run : rows[y]) {
+      int* row = labels.data() + y * static_cast<std::size_t>(mask.width);
+      std::fill(row + run.begin, row + run.end, number[static_cast<std::size_t>(run.part)]);
+    }
   return count;
 }
 

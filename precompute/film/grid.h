@@ -15,9 +15,18 @@
 
 namespace vsprite::detail {
 
-/// Sums of the four pixels of a cell, 0..1020, one plane a channel: B, G, R. At an odd right or
-/// lower edge the last pixel counts twice.
+/// A rectangle of cells.
+struct Window {
+  int left = 0, top = 0, width = 0, height = 0;
+  std::size_t cells() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  }
+};
+
+/// Sums of the four encoded pixels of a cell, 0..1020, one plane a channel: R, G, B. At an odd
+/// right or lower edge the last pixel counts twice.
 struct Grid {
+  int left = 0, top = 0;  ///< where it lies on the film's grid
   int width = 0, height = 0;
   std::vector<std::uint16_t> plane[3];
 
@@ -26,7 +35,8 @@ struct Grid {
   }
 };
 
-/// Fills `grid` from a frame.
+/// Fills `grid` with a part of a frame, or with all of it.
+void make_grid(const Frame& frame, const Window& window, Grid& grid);
 void make_grid(const Frame& frame, Grid& grid);
 
 /// A map of cells, 1 = in, row-major, of the given width and height.
@@ -47,12 +57,9 @@ struct Mask {
 Mask dilate(const Mask& mask, int radius);
 Mask erode(const Mask& mask, int radius);
 
-/// Near-Euclidean distance of each cell to the nearest cell that is `value`, in fifths of a cell
-/// (chamfer 5-7), at most 30,000. Outside the map counts as nothing.
-std::vector<std::uint16_t> distance_to(const Mask& mask, std::uint8_t value);
-
-/// Opening with a disc of `radius` cells: parts thinner than the disc vanish.
-Mask open_disc(const Mask& mask, int radius);
+/// The same with octagons, near discs, of `radius` cells.
+Mask dilate_disc(const Mask& mask, int radius);
+Mask erode_disc(const Mask& mask, int radius);
 
 /// Sum over boxes of 2 radius + 1, `passes` times in both directions, divided by the box: near
 /// Gaussian of variance passes ((2 radius + 1)^2 - 1) / 12. Outside is 0. `scratch` is working

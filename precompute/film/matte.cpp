@@ -13,8 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
 
 #include "film/color.h"
 #include "film/light.h"
@@ -23,57 +21,13 @@
 namespace vsprite {
 namespace {
 
+using detail::lanes;
 using detail::Mask;
 using detail::Patch;
 using detail::Silhouette;
 
 constexpr int kMostBlobs = 32;
-constexpr float kDetailRidge = 1e-4f;
-
-// Four times the encoded luma 0..255 of each Y of a film: an index of the table of sums.
-std::array<std::uint16_t, 256> luma_sums(const Coding& coding) {
-  std::array<std::uint16_t, 256> table{};
-  const RgbOfYcc m = rgb_of_ycc(coding);
-  for (int y = 0; y < 256; ++y)
-    table[static_cast<std::size_t>(y)] = static_cast<std::uint16_t>(m.sums(4 * y, 128, 128, 4)[0]);
-  return table;
-}
-
-// The two cells that a pixel lies between, and the share of the second.
-struct Between {
-  int first, second;
-  float share;
-};
-
-Between between(int pixel, int cells) {
-  const int cell = pixel / 2;
-  if (pixel % 2 == 0) return {std::max(cell - 1, 0), cell, 0.75f};
-  return {cell, std::min(cell + 1, cells - 1), 0.25f};
-}
-
-struct Bilinear {
-  std::size_t at[4];
-  float share[4];
-
-  Bilinear(Between x, Between y, int width) {
-    const auto index = [&](int cx, int cy) {
-      return static_cast<std::size_t>(cy) * static_cast<std::size_t>(width) +
-             static_cast<std::size_t>(cx);
-    };
-    at[0] = index(x.first, y.first);
-    at[1] = index(x.second, y.first);
-    at[2] = index(x.first, y.second);
-    at[3] = index(x.second, y.second);
-    share[0] = (1 - x.share) * (1 - y.share);
-    share[1] = x.share * (1 - y.share);
-    share[2] = (1 - x.share) * y.share;
-    share[3] = x.share * y.share;
-  }
-  float of(const std::vector<float>& plane) const {
-    return share[0] * plane[at[0]] + share[1] * plane[at[1]] + share[2] * plane[at[2]] +
-           share[3] * plane[at[3]];
-  }
-};
+constexpr int kUntouched = 6;  // cells: deeper in the picture is taken as it is
 
 }  // namespace
 
@@ -82,255 +36,348 @@ struct Keyer::Impl {
   MatteConfig config;
   Silhouette silhouette;
   Patch patch;
-
-  std::array<std::uint16_t, 256> luma;  // of the film's Y
+  float light[256];  // linear luma of the film's Y
   YccOfRgb weights;
 
-  // Maps of pixels over the patch.
+  // Maps of cells.
+  std::vector<float> gain, guide, own[3];
+  std::vector<std::uint8_t> inner;      // 1: all opaque around, 2: all clear, else 0
+  std::vector<float> product, scratch;  // working room
+  // Maps of pixels over the patch, `stride` = 2 x patch.width apart.
   int left = 0, top = 0, width = 0, height = 0;  // film pixels
-  std::vector<float> alpha;                      // 0..1, clipped
-  std::vector<float> gain, guide;                // cells: a and g_h
-  std::vector<float> own[3];                     // cells: the subject's colour F
-  std::vector<std::uint8_t> inner;               // cells: 0 edge, 1 all opaque around, 2 all clear
+  std::size_t stride = 0;
+  std::vector<float> detail, plate;  // linear luma less the plate's, and the plate's
+  std::vector<std::uint8_t> alpha;
 
-  std::size_t pixel(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-  }
-  std::size_t cell(int x, int y) const {
-    return static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(patch.width) +
-           static_cast<std::size_t>(x / 2);
-  }
-  // Of the frame or the plate.
-  std::size_t luma_at(const Frame& frame, int x, int y) const {
-    return luma[frame.y[static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
-                        static_cast<std::size_t>(left + x)]];
-  }
-  // Linear luma of the plate at a pixel, with the frame's drift.
-  float plate_luma(int x, int y) const {
-    const std::size_t at =
-        static_cast<std::size_t>(top + y) * static_cast<std::size_t>(screen->width) +
-        static_cast<std::size_t>(left + x);
-    const float code = 4 * (luma_scale * (static_cast<float>(screen->luma[at]) - luma_black) +
-                            drift_luma[cell(x, y)]);
-    return detail::linear_of_sums()[static_cast<std::size_t>(
-        std::clamp(code + 0.5f, 0.0f, 1020.0f))];
-  }
-  float luma_scale, luma_black;   // of ScreenModel::luma, to code values 0..255
-  std::vector<float> drift_luma;  // cells, code values
-
-  void measure_guide(const Frame& frame);
-  void measure_gain();
-  void raise_alpha(const Frame& frame);
+  void prepare();
+  void place(const Frame& frame);
+  void measure_detail(const Frame& frame);
+  void measure_guide();
+  void mark_inner();
+  void raise_alpha();
   void measure_own_color();
   void find_blobs(KeyedFrame& result, std::vector<int>& labels);
   void paint(const Frame& frame, const std::vector<int>& labels, KeyedFrame& result);
   void whole_frame(const Frame& frame, KeyedFrame& result) const;
 };
 
-// g_h: the mean over the cell of linear luma less the plate's.
-void Keyer::Impl::measure_guide(const Frame& frame) {
-  const auto& light = detail::linear_of_sums();
-  const std::size_t n = patch.cells();
-  guide.assign(n, 0);
-  drift_luma.resize(n);
-  inner.assign(n, 0);
-  for (int cy = 0; cy < patch.height; ++cy)
-    for (int cx = 0; cx < patch.width; ++cx) {
-      const std::size_t i = static_cast<std::size_t>(cy) * static_cast<std::size_t>(patch.width) +
-                            static_cast<std::size_t>(cx);
-      const double u = detail::scaled(patch.left + cx, silhouette.grid.width);
-      const double v = detail::scaled(patch.top + cy, silhouette.grid.height);
-      const auto& drift = silhouette.drift;
-      drift_luma[i] = weights.blue * static_cast<float>(drift.at(0, u, v)) +
-                      weights.green * static_cast<float>(drift.at(1, u, v)) +
-                      weights.red * static_cast<float>(drift.at(2, u, v));
-      // Cells with nothing but 0 or nothing but 1 around need no detail.
-      float low = 1;
-      float high = 0;
-      for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, patch.height - 1); ++y)
-        for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, patch.width - 1); ++x) {
-          const float a =
-              patch.alpha[static_cast<std::size_t>(y) * static_cast<std::size_t>(patch.width) +
-                          static_cast<std::size_t>(x)];
-          low = std::min(low, a);
-          high = std::max(high, a);
-        }
-      inner[i] = low >= 1 ? 1 : high <= 0 ? 2 : 0;
-      float sum = 0;
-      int count = 0;
-      for (int y = 2 * cy; y < std::min(2 * cy + 2, height); ++y)
-        for (int x = 2 * cx; x < std::min(2 * cx + 2, width); ++x, ++count)
-          sum += light[luma_at(frame, x, y)] - plate_luma(x, y);
-      guide[i] = sum / static_cast<float>(std::max(count, 1));
-    }
+// What depends on the film alone.
+void Keyer::Impl::prepare() {
+  const auto& table = detail::linear_of_sums();
+  const RgbOfYcc m = rgb_of_ycc(screen->plate.coding);
+  for (int y = 0; y < 256; ++y)
+    light[y] = table[static_cast<std::size_t>(m.sums(4 * y, 128, 128, 4)[0])];
+  weights = ycc_of_rgb(screen->plate.coding);
 }
 
-void Keyer::Impl::measure_gain() {
-  gain.assign(patch.cells(), 0);
-  for (int cy = 0; cy < patch.height; ++cy)
-    for (int cx = 0; cx < patch.width; ++cx) {
-      const std::size_t i = static_cast<std::size_t>(cy) * static_cast<std::size_t>(patch.width) +
-                            static_cast<std::size_t>(cx);
-      if (inner[i]) continue;
-      float a = 0;
-      float g = 0;
-      float ag = 0;
-      float gg = 0;
-      float count = 0;
-      for (int y = std::max(cy - 1, 0); y <= std::min(cy + 1, patch.height - 1); ++y)
-        for (int x = std::max(cx - 1, 0); x <= std::min(cx + 1, patch.width - 1); ++x) {
-          const std::size_t j =
-              static_cast<std::size_t>(y) * static_cast<std::size_t>(patch.width) +
-              static_cast<std::size_t>(x);
-          a += patch.alpha[j];
-          g += guide[j];
-          ag += patch.alpha[j] * guide[j];
-          gg += guide[j] * guide[j];
-          count += 1;
-        }
-      gain[i] = (ag - a * g / count) / (gg - g * g / count + count * kDetailRidge);
-    }
+void Keyer::Impl::place(const Frame& frame) {
+  left = 2 * patch.left;
+  top = 2 * patch.top;
+  width = std::min(2 * patch.width, frame.width - left);
+  height = std::min(2 * patch.height, frame.height - top);
+  stride = 2 * static_cast<std::size_t>(patch.width);
 }
 
-void Keyer::Impl::raise_alpha(const Frame& frame) {
-  const auto& light = detail::linear_of_sums();
-  alpha.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+// Linear luma of every pixel less the plate's; what an odd edge lacks repeats the last one.
+void Keyer::Impl::measure_detail(const Frame& frame) {
+  const auto rows = 2 * static_cast<std::size_t>(patch.height);
+  detail.resize(rows * stride);
+  plate.resize(rows * stride);
+  std::vector<float> drift(static_cast<std::size_t>(patch.width) + 1);
+  const int w = frame.cell_width();
+  const double step = w > 1 ? 2.0 / (w - 1) : 0.0;
   for (int y = 0; y < height; ++y) {
-    const Between rows = between(y, patch.height);
-    for (int x = 0; x < width; ++x) {
-      const std::uint8_t kind = inner[cell(x, y)];
-      if (kind == 2) continue;
-      float& out = alpha[pixel(x, y)];
-      if (kind == 1) {
-        out = 1;
-        continue;
+    if (y % 2 == 0) {
+      // The drift of luma in linear light: slope of the transfer times the drift of the code.
+      const double v = detail::scaled(patch.top + y / 2, frame.cell_height());
+      const auto red = detail::row_of(silhouette.drift, 0, v);
+      const auto green = detail::row_of(silhouette.drift, 1, v);
+      const auto blue = detail::row_of(silhouette.drift, 2, v);
+      const std::size_t from =
+          static_cast<std::size_t>(patch.top + y / 2) * static_cast<std::size_t>(w) +
+          static_cast<std::size_t>(patch.left);
+      for (int x = 0; x < patch.width; ++x) {
+        const float u = static_cast<float>(step * (patch.left + x) - 1);
+        const auto at = [u](detail::RowTerms t) { return t.a + u * (t.b + u * t.c); };
+        drift[static_cast<std::size_t>(x)] =
+            screen->slope[1][from + static_cast<std::size_t>(x)] *
+            (weights.red * at(red) + weights.green * at(green) + weights.blue * at(blue));
       }
-      const Bilinear up(between(x, patch.width), rows, patch.width);
-      const float g = light[luma_at(frame, x, y)] - plate_luma(x, y);
-      const float a = up.of(patch.alpha) + up.of(gain) * (g - up.of(guide));
-      // Before a plain plate shadows and the codec's smear look like thin subject: they are taken
-      // off.
-      const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
-      const float clear = (a - shade) / (1 - shade);
-      out = clear < config.clip_low ? 0.0f : clear > config.clip_high ? 1.0f : clear;
     }
+    const std::size_t from =
+        static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
+        static_cast<std::size_t>(left);
+    float* out = detail.data() + static_cast<std::size_t>(y) * stride;
+    float* below = plate.data() + static_cast<std::size_t>(y) * stride;
+    lanes().detail(frame.y.data() + from, light, screen->luma.data() + from, drift.data(), width,
+                   out, below);
+    for (auto x = static_cast<std::size_t>(width); x < stride; ++x) {
+      out[x] = out[x - 1];
+      below[x] = below[x - 1];
+    }
+  }
+  for (auto y = static_cast<std::size_t>(height); y < rows; ++y)
+    for (auto* plane : {&detail, &plate})
+      std::copy_n(plane->data() + (y - 1) * stride, stride, plane->data() + y * stride);
+}
+
+// g_h: the mean of g over a cell; a: how much of g is alpha's own detail.
+void Keyer::Impl::measure_guide() {
+  const std::size_t n = patch.cells();
+  guide.resize(n);
+  gain.resize(n);
+  product.resize(n);
+  scratch.resize(n);
+  for (int y = 0; y < patch.height; ++y) {
+    const float* first = detail.data() + 2 * static_cast<std::size_t>(y) * stride;
+    lanes().halve(first, first + stride, patch.width,
+                  guide.data() + static_cast<std::ptrdiff_t>(y) * patch.width);
+  }
+  std::vector<float>(&mean)[3] = patch.color;  // its own use is over
+  const auto blur = [&](const std::vector<float>& in, std::vector<float>& out) {
+    out.resize(n);
+    lanes().blur3(in.data(), patch.width, patch.height, scratch.data(), out.data());
+  };
+  blur(patch.alpha, mean[0]);
+  blur(guide, mean[1]);
+  lanes().multiply(patch.alpha.data(), guide.data(), n, product.data());
+  blur(product, mean[2]);
+  lanes().multiply(guide.data(), guide.data(), n, product.data());
+  blur(product, patch.weight);
+  lanes().gain(mean[0].data(), mean[1].data(), mean[2].data(), patch.weight.data(), n, gain.data());
+}
+
+// Cells with nothing but 0 or nothing but 1 around need no detail.
+void Keyer::Impl::mark_inner() {
+  const std::size_t n = patch.cells();
+  Mask some(patch.width, patch.height);
+  Mask full(patch.width, patch.height);
+  lanes().above(patch.alpha.data(), 0, n, some.in.data());
+  for (std::size_t i = 0; i < n; ++i) full.in[i] = patch.alpha[i] >= 1 ? 1 : 0;
+  some = dilate(some, 1);
+  full = erode(full, 1);
+  inner.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    inner[i] = some.in[i] ? full.in[i] : std::uint8_t{2};
+    gain[i] = inner[i] ? 0.0f : gain[i];
   }
 }
 
-// F per cell: unmixed where there is enough of it, else that of the neighbourhood; the screen's hue
-// is taken out as far as the neighbourhood has none of it.
-void Keyer::Impl::measure_own_color() {
-  for (int p = 0; p < 3; ++p) own[p].assign(patch.cells(), 0);
-  for (std::size_t i = 0; i < patch.cells(); ++i) {
-    const float a = patch.alpha[i];
-    if (!(a > 0)) continue;
-    float f[3];
-    const float trust = a * a * a;
-    for (int p = 0; p < 3; ++p) {
-      const float free = patch.plate[p][i] + (patch.frame[p][i] - patch.plate[p][i]) / a;
-      const float unmixed = std::clamp(free, 0.0f, 1.0f);
-      f[p] = (trust * unmixed + 0.05f * patch.mean[p][i]) / (trust + 0.05f);
+// The two cells that a row of pixels lies between, mixed and then doubled along the row.
+void up_row(const std::vector<float>& plane, int width, int height, int y, float* row, float* out) {
+  const int cell = y / 2;
+  const int second = std::clamp(y % 2 ? cell + 1 : cell - 1, 0, height - 1);
+  lanes().mix(plane.data() + static_cast<std::ptrdiff_t>(cell) * width, 0.75f,
+              plane.data() + static_cast<std::ptrdiff_t>(second) * width, 0.25f,
+              static_cast<std::size_t>(width), row);
+  lanes().double_row(row, width, out);
+}
+
+void Keyer::Impl::raise_alpha() {
+  alpha.assign(stride * static_cast<std::size_t>(height), 0);
+  std::vector<float> rows(4 * stride);
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* kinds = inner.data() + static_cast<std::ptrdiff_t>(y / 2) * patch.width;
+    const std::uint8_t* end = kinds + patch.width;
+    if (std::find_if(kinds, end, [](std::uint8_t k) { return k != 2; }) == end) continue;
+    float* up = rows.data() + stride;
+    up_row(patch.alpha, patch.width, patch.height, y, rows.data(), up);
+    up_row(gain, patch.width, patch.height, y, rows.data(), up + stride);
+    up_row(guide, patch.width, patch.height, y, rows.data(), up + 2 * stride);
+    const std::size_t at = static_cast<std::size_t>(y) * stride;
+    // Before a plain plate shadows and the codec's smear look like thin subject: they are taken
+    // off.
+    const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
+    lanes().raise_alpha({up, up + stride, up + 2 * stride, detail.data() + at, shade,
+                         config.clip_low, config.clip_high},
+                        static_cast<int>(stride), alpha.data() + at);
+    // The neighbours' gain reaches half a cell into what is all opaque or all clear.
+    for (int x = 0; x < patch.width; ++x) {
+      if (!kinds[x]) continue;
+      alpha[at + 2 * static_cast<std::size_t>(x)] = kinds[x] == 1 ? 255 : 0;
+      alpha[at + 2 * static_cast<std::size_t>(x) + 1] = kinds[x] == 1 ? 255 : 0;
     }
-    if (screen->key >= 0 && !(a >= 1 && inner[i] == 1)) {
-      const float allowed = std::max(
-          detail::key_strength(screen->key, patch.mean[0][i], patch.mean[1][i], patch.mean[2][i]),
-          0.0f);
-      const float excess = detail::key_strength(screen->key, f[0], f[1], f[2]) - allowed;
-      if (excess > 0) {
-        const bool single = screen->key < 3;
-        for (int p = 0; p < 3; ++p)
-          if ((p == screen->key % 3) == single) f[p] = std::max(f[p] - excess, 0.0f);
-      }
-    }
-    for (int p = 0; p < 3; ++p) own[p][i] = f[p];
+    std::fill(alpha.begin() + static_cast<std::ptrdiff_t>(at) + width,
+              alpha.begin() + static_cast<std::ptrdiff_t>(at + stride), std::uint8_t{0});
   }
 }
+
+// F per cell, encoded and times alpha: what is then mixed between cells.
+void Keyer::Impl::measure_own_color() {
+  const std::size_t n = patch.cells();
+  for (auto& plane : own) plane.resize(n);
+  const auto pointers = [](auto& planes) {
+    return std::array{planes[0].data(), planes[1].data(), planes[2].data()};
+  };
+  const auto frame = pointers(patch.frame);
+  const auto back = pointers(patch.plate);
+  const auto mean = pointers(patch.mean);
+  const float* c[3] = {frame[0], frame[1], frame[2]};
+  const float* b[3] = {back[0], back[1], back[2]};
+  const float* m[3] = {mean[0], mean[1], mean[2]};
+  float* o[3] = {own[0].data(), own[1].data(), own[2].data()};
+  lanes().own_color(patch.alpha.data(), c, b, m, inner.data(), screen->key >= 0,
+                    detail::shape_of(screen->key), n, o);
+}
+
+namespace {
+
+// Alphas of a run of cells, two rows of pixels: their sum, that of the right and lower pixels, and
+// the sum times the cell's number.
+struct RunSums {
+  int all = 0, right = 0, low = 0;
+  std::int64_t moment = 0;
+};
+
+RunSums sum_run(const std::uint8_t* top, const std::uint8_t* low, int begin, int end) {
+  RunSums sums;
+  int moment = 0;  // below 2^31 for any run: 16,384 cells of 1,020
+  for (int x = begin; x < end; ++x) {
+    const int left = top[2 * x] + low[2 * x];
+    const int right = top[2 * x + 1] + low[2 * x + 1];
+    sums.all += left + right;
+    sums.right += right;
+    sums.low += low[2 * x] + low[2 * x + 1];
+    moment += (left + right) * (x - begin);
+  }
+  sums.moment = moment + std::int64_t{begin} * sums.all;
+  return sums;
+}
+
+// A part of the matte, in sums of alpha 0..255 over pixels.
+struct Part {
+  std::int64_t area = 0, weight = 0, x = 0, y = 0;  // x, y: twice the pixel's centre
+  int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
+  int seeds = 0, label = 0;
+  bool border = false;
+};
+
+}  // namespace
 
 // Parts on the grid, near ones joined; those without a seed are noise.
 void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
-  Mask covered(patch.width, patch.height);
-  Mask solid(patch.width, patch.height);
-  std::vector<float> cover(patch.cells());
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) cover[cell(x, y)] += 0.25f * alpha[pixel(x, y)];
-  for (std::size_t i = 0; i < cover.size(); ++i) {
-    covered.in[i] = cover[i] > 0 ? 1 : 0;
-    solid.in[i] = cover[i] >= 0.5f ? 1 : 0;
-  }
-  const int parts = connected_parts(dilate(covered, 1), labels);
-  struct Part {
-    int seeds = 0;
-    double area = 0;
-    int label = 0;
+  const int w = patch.width;
+  Mask covered(w, patch.height);
+  Mask solid(w, patch.height);
+  const std::vector<std::uint8_t> nothing(stride);
+  const auto top_row = [&](int cy) {
+    return alpha.data() + 2 * static_cast<std::size_t>(cy) * stride;
   };
-  std::vector<Part> sums(static_cast<std::size_t>(parts) + 1);
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    if (!covered.in[i]) labels[i] = 0;
-    Part& part = sums[static_cast<std::size_t>(labels[i])];
-    part.seeds += patch.seeds.in[i];
-    part.area += 4 * static_cast<double>(cover[i]);
-    part.label = labels[i];
+  const auto low_row = [&](int cy) {
+    return 2 * cy + 1 < height ? top_row(cy) + stride : nothing.data();
+  };
+  for (int cy = 0; cy < patch.height; ++cy) {
+    const std::uint8_t* a = top_row(cy);
+    const std::uint8_t* b = low_row(cy);
+    std::uint8_t* some = covered.row(cy);
+    std::uint8_t* half = solid.row(cy);
+    for (int cx = 0; cx < w; ++cx) {
+      const int sum = a[2 * cx] + a[2 * cx + 1] + b[2 * cx] + b[2 * cx + 1];
+      some[cx] = sum > 0 ? 1 : 0;
+      half[cx] = sum >= 510 ? 1 : 0;
+    }
   }
-  sums[0] = Part{};
-  std::erase_if(sums, [](const Part& p) { return p.label == 0 || p.seeds == 0; });
-  std::sort(sums.begin(), sums.end(), [](const Part& a, const Part& b) {
+  const int count = connected_parts(dilate(covered, 1), labels);
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = covered.in[i] ? labels[i] : 0;
+  // Calls `with` for every run of one label, of cells that `in` admits.
+  const auto each_run = [&](const Mask& in, auto with) {
+    for (int cy = 0; cy < patch.height; ++cy) {
+      const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * w;
+      const std::uint8_t* admitted = in.row(cy);
+      for (int cx = 0; cx < w;) {
+        const int of = admitted[cx] ? label[cx] : 0;
+        int end = cx + 1;
+        while (end < w && (admitted[end] ? label[end] : 0) == of) ++end;
+        if (of) with(of, cy, cx, end);
+        cx = end;
+      }
+    }
+  };
+  std::vector<Part> parts(static_cast<std::size_t>(count) + 1);
+  each_run(covered, [&](int label, int cy, int begin, int end) {
+    Part& part = parts[static_cast<std::size_t>(label)];
+    const std::uint8_t* a = top_row(cy);
+    const std::uint8_t* b = low_row(cy);
+    const RunSums sums = sum_run(a, b, begin, end);
+    part.label = label;
+    part.area += sums.all;
+    for (int cx = begin; cx < end; ++cx) part.seeds += patch.seeds.row(cy)[cx];
+    part.left = std::min(part.left, 2 * begin + (a[2 * begin] || b[2 * begin] ? 0 : 1));
+    part.right = std::max(part.right, 2 * end - (a[2 * end - 1] || b[2 * end - 1] ? 0 : 1));
+    part.top = std::min(part.top, 2 * cy + (sums.all > sums.low ? 0 : 1));
+    part.bottom = std::max(part.bottom, 2 * cy + (sums.low ? 2 : 1));
+  });
+  std::vector<Part> kept;
+  for (const Part& part : parts)
+    if (part.label && part.seeds) kept.push_back(part);
+  std::sort(kept.begin(), kept.end(), [](const Part& a, const Part& b) {
     return a.area != b.area ? a.area > b.area : a.label < b.label;
   });
-  if (sums.size() > static_cast<std::size_t>(kMostBlobs)) sums.resize(kMostBlobs);
-  std::vector<int> renamed(static_cast<std::size_t>(parts) + 1);
-  for (std::size_t k = 0; k < sums.size(); ++k)
-    renamed[static_cast<std::size_t>(sums[k].label)] = static_cast<int>(k) + 1;
+  if (kept.size() > static_cast<std::size_t>(kMostBlobs)) kept.resize(kMostBlobs);
+  std::vector<int> renamed(parts.size());
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    renamed[static_cast<std::size_t>(kept[k].label)] = static_cast<int>(k) + 1;
   for (int& label : labels) label = renamed[static_cast<std::size_t>(label)];
 
   // The anchor's mask: solid cells, opened until thin parts are gone, with the soft edge added
-  // back.
-  std::vector<double> opened_weight(sums.size() + 1);
-  std::vector<Mask> openings;
-  for (int radius = screen->opening; radius > 0; radius /= 2)
-    openings.push_back(dilate(open_disc(solid, radius), 1));
-  openings.push_back(covered);
-  std::vector<std::size_t> choice(sums.size() + 1, openings.size() - 1);
-  for (std::size_t o = openings.size(); o-- > 0;)
-    for (std::size_t i = 0; i < labels.size(); ++i)
-      if (labels[i] && openings[o].in[i]) choice[static_cast<std::size_t>(labels[i])] = o;
-
-  struct Sums {
-    double area = 0, weight = 0, x = 0, y = 0;
-    int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
-    bool border = false;
+  // back; where nothing is left of a part, opened by less.
+  std::vector<char> anchored(kept.size() + 1, 0);
+  std::size_t missing = kept.size();
+  for (int radius = screen->opening; missing > 0; radius /= 2) {
+    const Mask opened =
+        radius > 0 ? dilate(dilate_disc(erode_disc(solid, radius), radius), 1) : covered;
+    std::vector<char> now(kept.size() + 1, 0);
+    each_run(opened, [&](int label, int cy, int begin, int end) {
+      const auto k = static_cast<std::size_t>(label);
+      if (anchored[k]) return;
+      now[k] = 1;
+      Part& part = kept[k - 1];
+      const RunSums sums = sum_run(top_row(cy), low_row(cy), begin, end);
+      part.weight += sums.all;
+      part.x += 4 * sums.moment + sums.all + 2 * sums.right;
+      part.y += std::int64_t{sums.all} * (4 * cy + 1) + 2 * sums.low;
+    });
+    for (std::size_t k = 1; k < now.size(); ++k)
+      if (now[k]) {
+        anchored[k] = 1;
+        --missing;
+      }
+    if (radius == 0) break;
+  }
+  // What is of no part is not there.
+  for (int cy = 0; cy < patch.height; ++cy) {
+    const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * w;
+    for (int cx = 0; cx < w; ++cx)
+      if (!label[cx] && covered.row(cy)[cx])
+        for (int y = 2 * cy; y < std::min(2 * cy + 2, height); ++y)
+          std::fill_n(alpha.data() + static_cast<std::size_t>(y) * stride + 2 * cx, 2,
+                      std::uint8_t{0});
+  }
+  // Contact with the film's border: more than a fifth covered there.
+  const auto look_at = [&](int x, int y) {
+    const std::size_t c = static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(w) +
+                          static_cast<std::size_t>(x / 2);
+    if (labels[c] && alpha[static_cast<std::size_t>(y) * stride + static_cast<std::size_t>(x)] > 51)
+      kept[static_cast<std::size_t>(labels[c]) - 1].border = true;
   };
-  std::vector<Sums> all(sums.size() + 1);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float a = alpha[pixel(x, y)];
-      const std::size_t c = cell(x, y);
-      const auto label = static_cast<std::size_t>(labels[c]);
-      if (!(a > 0) || label == 0) continue;
-      Sums& s = all[label];
-      s.area += static_cast<double>(a);
-      s.left = std::min(s.left, x);
-      s.right = std::max(s.right, x + 1);
-      s.top = std::min(s.top, y);
-      s.bottom = std::max(s.bottom, y + 1);
-      const bool edge = left + x < 1 || top + y < 1 || left + x >= screen->width - 1 ||
-                        top + y >= screen->height - 1;
-      if (edge && a > 0.2f) s.border = true;
-      if (!openings[choice[label]].in[c]) continue;
-      s.weight += static_cast<double>(a);
-      s.x += static_cast<double>(a) * (left + x + 0.5);
-      s.y += static_cast<double>(a) * (top + y + 0.5);
-    }
-  for (std::size_t label = 1; label < all.size(); ++label) {
-    const Sums& s = all[label];
-    if (s.right < 0 || !(s.weight > 0)) continue;
+  for (int x = 0; x < width; ++x) {
+    if (top == 0) look_at(x, 0);
+    if (top + height == screen->height) look_at(x, height - 1);
+  }
+  for (int y = 0; y < height; ++y) {
+    if (left == 0) look_at(0, y);
+    if (left + width == screen->width) look_at(width - 1, y);
+  }
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const Part& part = kept[k];
+    if (part.right < 0 || part.weight <= 0) continue;
     Blob blob;
-    blob.box = {left + s.left, top + s.top, s.right - s.left, s.bottom - s.top};
-    blob.area = s.area;
-    blob.anchor_x = s.x / s.weight;
-    blob.anchor_y = s.y / s.weight;
-    blob.touches_border = s.border;
-    blob.label = static_cast<int>(label);
+    blob.box = {left + part.left, top + part.top, part.right - part.left, part.bottom - part.top};
+    blob.area = static_cast<double>(part.area) / 255;
+    blob.anchor_x = left + 0.5 * static_cast<double>(part.x) / static_cast<double>(part.weight);
+    blob.anchor_y = top + 0.5 * static_cast<double>(part.y) / static_cast<double>(part.weight);
+    blob.touches_border = part.border;
+    blob.label = static_cast<int>(k) + 1;
     result.blobs.push_back(blob);
   }
 }
@@ -353,57 +400,79 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
       static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height);
   result.straight.rgba.assign(4 * n, 0);
   result.labels.assign(n, 0);
-  const auto& light = detail::linear_of_sums();
-  // Deeper than 6 cells the picture is taken as it is: green clothes stay green.
-  const auto depth = detail::distance_to(patch.seeds, 0);
-  for (int cy = 0; cy < crop.height; ++cy) {
-    const int y = crop.y + cy - top;
-    const Between rows = between(y, patch.height);
-    for (int cx = 0; cx < crop.width; ++cx) {
-      const int x = crop.x + cx - left;
-      const float a = alpha[pixel(x, y)];
-      const std::size_t c = cell(x, y);
-      if (!(a > 0) || labels[c] == 0) continue;
-      const std::size_t to = static_cast<std::size_t>(cy) * static_cast<std::size_t>(crop.width) +
-                             static_cast<std::size_t>(cx);
-      const auto code = static_cast<std::uint8_t>(a * 255 + 0.5f);
-      if (code == 0) continue;
-      result.labels[to] = static_cast<std::uint8_t>(labels[c]);
-      std::uint8_t* out = result.straight.rgba.data() + 4 * to;
-      out[3] = code;
-      if (depth[c] > 30) {
-        const auto rgb = rgb_at(frame, left + x, top + y);
-        std::copy(rgb.begin(), rgb.end(), out);
-        continue;
+
+  // Own colour, encoded, times alpha.
+  const std::size_t cells = patch.cells();
+  for (auto& plane : own) lanes().encode(patch.alpha.data(), plane.data(), cells);
+  // Deep inside the picture is taken as it is: green clothes stay green.
+  const Mask deep = erode_disc(patch.seeds, kUntouched);
+  const RgbOfYcc matrix = rgb_of_ycc(frame.coding);
+  std::vector<float> rows(6 * stride);
+  std::vector<std::uint8_t> filmed(4 * stride);
+  std::vector<std::uint8_t> painted(4 * stride);
+  for (int y = crop.y - top; y < crop.y - top + crop.height; ++y) {
+    const int cy = y / 2;
+    const std::uint8_t* inside = deep.row(cy);
+    const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * patch.width;
+    // Cells from the first to the last that is covered; runs of deep ones are copied.
+    int first = 0;
+    int last = patch.width;
+    while (first < last && !label[first]) ++first;
+    while (last > first && !label[last - 1]) --last;
+    if (first == last) continue;
+    const std::size_t at = static_cast<std::size_t>(y) * stride;
+    const std::size_t film =
+        static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
+        static_cast<std::size_t>(left);
+    const std::size_t color =
+        static_cast<std::size_t>(patch.top + cy) * static_cast<std::size_t>(frame.cell_width()) +
+        static_cast<std::size_t>(patch.left);
+    bool raised = false;
+    std::uint8_t* out = result.straight.rgba.data();
+    std::uint8_t* names = result.labels.data();
+    const auto row_start =
+        static_cast<std::ptrdiff_t>(y - (crop.y - top)) * crop.width - (crop.x - left);
+    for (int begin = first; begin < last;) {
+      const bool as_filmed = inside[begin] != 0;
+      int end = begin + 1;
+      while (end < last && (inside[end] != 0) == as_filmed) ++end;
+      const int from = 2 * begin;
+      const int pixels = std::min(2 * end, width) - from;
+      std::uint8_t* source = nullptr;
+      if (as_filmed) {
+        lanes().paint_filmed(matrix, frame.y.data() + film + from, frame.cb.data() + color + begin,
+                             frame.cr.data() + color + begin, pixels, filmed.data());
+        source = filmed.data();
+      } else {
+        if (!raised) {
+          float* up = rows.data() + stride;
+          up_row(patch.alpha, patch.width, patch.height, y, rows.data(), up);
+          for (int p = 0; p < 3; ++p)
+            up_row(own[p], patch.width, patch.height, y, rows.data(),
+                   up + static_cast<std::size_t>(p + 1) * stride);
+          raised = true;
+        }
+        const float* up = rows.data() + stride + from;
+        lanes().paint_own({alpha.data() + at + from,
+                           up,
+                           {up + stride, up + 2 * stride, up + 3 * stride},
+                           detail.data() + at + from,
+                           plate.data() + at + from,
+                           weights.red,
+                           weights.green,
+                           weights.blue},
+                          pixels, painted.data());
+        source = painted.data();
       }
-      // F from the cells around, each as far as it is covered.
-      const Bilinear up(between(x, patch.width), rows, patch.width);
-      float f[3] = {};
-      float total = 0;
-      for (int k = 0; k < 4; ++k) {
-        const float w = up.share[k] * patch.alpha[up.at[k]];
-        total += w;
-        for (int p = 0; p < 3; ++p) f[p] += w * own[p][up.at[k]];
-      }
-      if (!(total > 0)) {
-        for (int p = 0; p < 3; ++p) f[p] = patch.mean[p][c];
-        total = 1;
-      }
-      for (float& value : f) value /= total;
-      // Brightness of the pixel itself, trusted as far as it is covered: what its luma is above
-      // that of the mixture expected, in code values.
-      std::uint8_t own_rgb[3];
-      for (int p = 0; p < 3; ++p) own_rgb[p] = detail::encoded_of(f[p]);
-      const float own_luma = 4 * (weights.red * static_cast<float>(own_rgb[0]) +
-                                  weights.green * static_cast<float>(own_rgb[1]) +
-                                  weights.blue * static_cast<float>(own_rgb[2]));
-      const float mixed =
-          a * light[static_cast<std::size_t>(own_luma + 0.5f)] + (1 - a) * plate_luma(x, y);
-      const float expected = static_cast<float>(4 * detail::encoded_of(mixed));
-      const float lift = 0.25f * a * a * (static_cast<float>(luma_at(frame, x, y)) - expected);
-      for (int p = 0; p < 3; ++p)
-        out[p] = static_cast<std::uint8_t>(
-            std::clamp(static_cast<float>(own_rgb[p]) + lift + 0.5f, 0.0f, 255.0f));
+      const int low = std::max(from, crop.x - left);
+      const int high = std::min(from + pixels, crop.x - left + crop.width);
+      if (high > low)
+        std::copy(source + 4 * (low - from), source + 4 * (high - from),
+                  out + 4 * (row_start + low));
+      const std::uint8_t* shown = alpha.data() + at;
+      for (int x = low; x < high; ++x)
+        names[row_start + x] = shown[x] ? static_cast<std::uint8_t>(label[x / 2]) : std::uint8_t{0};
+      begin = end;
     }
   }
 }
@@ -432,11 +501,7 @@ double mean_difference(const Frame& a, const Frame& b, const Rect& box) {
   for (int y = box.y; y < box.y + box.height; ++y) {
     const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) +
                            static_cast<std::size_t>(box.x);
-    const std::size_t n = static_cast<std::size_t>(box.width);
-    std::uint32_t row = 0;
-    for (std::size_t i = 0; i < n; ++i)
-      row += static_cast<std::uint32_t>(std::abs(a.y[at + i] - b.y[at + i]));
-    sum += row;
+    sum += lanes().difference(a.y.data() + at, b.y.data() + at, box.width);
   }
   return static_cast<double>(sum) / (1.0 * box.width * box.height);
 }
@@ -446,11 +511,8 @@ double mean_difference(const Frame& a, const Frame& b, const Rect& box) {
 Keyer::Keyer(const ScreenModel& screen, const MatteConfig& config)
     : impl_(std::make_unique<Impl>()) {
   impl_->screen = &screen;
-  impl_->luma = luma_sums(screen.plate.coding);
-  impl_->luma_scale = 1 / (64 * ycc_of_rgb(screen.plate.coding).luma);
-  impl_->luma_black = 64 * ycc_of_rgb(screen.plate.coding).black;
-  impl_->weights = ycc_of_rgb(screen.plate.coding);
   impl_->config = config;
+  impl_->prepare();
 }
 
 Keyer::~Keyer() = default;
@@ -466,13 +528,11 @@ KeyedFrame Keyer::key(const Frame& frame, const Frame* before) {
     if (k.silhouette.empty) return result;
     detail::cut_patch(*k.screen, k.silhouette, k.patch);
     detail::unmix(*k.screen, k.patch);
-    k.left = 2 * k.patch.left;
-    k.top = 2 * k.patch.top;
-    k.width = std::min(2 * k.patch.width, frame.width - k.left);
-    k.height = std::min(2 * k.patch.height, frame.height - k.top);
-    k.measure_guide(frame);
-    k.measure_gain();
-    k.raise_alpha(frame);
+    k.place(frame);
+    k.measure_detail(frame);
+    k.measure_guide();
+    k.mark_inner();
+    k.raise_alpha();
     k.measure_own_color();
     std::vector<int> labels;
     k.find_blobs(result, labels);

@@ -23,13 +23,13 @@ using detail::Mask;
 using detail::Surface;
 using detail::SurfaceFit;
 
-// Luma and the two colour differences of encoded blue, green, red: invertible, so a sum as good as
+// Luma and the two colour differences of encoded red, green, blue: invertible, so a sum as good as
 // any; what matters is that colour is apart from brightness.
 struct Ycc {
   float y, cb, cr;
 };
 
-Ycc ycc(float b, float g, float r) {
+Ycc ycc(float r, float g, float b) {
   const float y = 0.114f * b + 0.587f * g + 0.299f * r;
   return {y, 0.564f * (b - y), 0.713f * (r - y)};
 }
@@ -164,7 +164,7 @@ ScreenSurface fit_surface(const std::vector<Grid>& grids, const ScreenColor& col
   return s;
 }
 
-// What a cell looks like when bare: its centre per plane (B, G, R code values) and, per frame,
+// What a cell looks like when bare: its centre per plane (R, G, B code values) and, per frame,
 // where.
 struct Bare {
   std::vector<float> centre[3];
@@ -289,7 +289,7 @@ void average_bare(std::span<const Frame> frames, const std::vector<Grid>& grids,
       continue;
     }
     ++hidden;
-    const auto codes = to_ycc.codes(bare.centre[2][i], bare.centre[1][i], bare.centre[0][i]);
+    const auto codes = to_ycc.codes(bare.centre[0][i], bare.centre[1][i], bare.centre[2][i]);
     centre_luma[i] = codes[0];
     plate.cb[i] = codes[1];
     plate.cr[i] = codes[2];
@@ -305,15 +305,39 @@ void average_bare(std::span<const Frame> frames, const std::vector<Grid>& grids,
       screen.luma[at] = static_cast<std::uint16_t>(
           count[i] ? (64 * luma[at] + count[i] / 2u) / count[i] : 64u * centre_luma[i]);
     }
+  screen.cell_luma.resize(cells);
+  const int gw = grids[0].width;
+  for (int cy = 0; cy < grids[0].height; ++cy)
+    for (int cx = 0; cx < gw; ++cx) {
+      std::uint32_t sum = 0;
+      for (int k = 0; k < 4; ++k)
+        sum +=
+            screen
+                .luma[static_cast<std::size_t>(std::min(2 * cy + k / 2, screen.height - 1)) * row +
+                      static_cast<std::size_t>(std::min(2 * cx + k % 2, screen.width - 1))];
+      screen.cell_luma[static_cast<std::size_t>(cy) * static_cast<std::size_t>(gw) +
+                       static_cast<std::size_t>(cx)] = static_cast<std::uint16_t>((sum + 32) / 64);
+    }
+  // From 64 Y to linear light.
+  const auto& light = detail::linear_of_sums();
+  for (std::uint16_t& value : screen.luma) {
+    const float code = 4 * (static_cast<float>(value) / 64 - to_ycc.black) / to_ycc.luma;
+    const float bounded = std::clamp(code, 0.0f, 1019.99f);
+    const auto low = static_cast<std::size_t>(bounded);
+    value = static_cast<std::uint16_t>(
+        65535 * (light[low] + (light[low + 1] - light[low]) * (bounded - static_cast<float>(low))) +
+        0.5f);
+  }
 }
 
 // Noise of the bare screen about the plate and the frame's own drift, by median: what is left of
 // the subject does not count.
-void measure_noise(const std::vector<Grid>& grids, const Bare& bare, ScreenModel& screen) {
+void measure_noise(std::span<const Frame> frames, const std::vector<Grid>& grids, const Bare& bare,
+                   ScreenModel& screen) {
   Spread spread[3];
   for (std::size_t f = 0; f < grids.size(); ++f) {
     const Grid& grid = grids[f];
-    const Surface drift = detail::fit_drift(screen, grid, 9);
+    const Surface drift = detail::fit_drift(screen, frames[f], 9);
     for (int y = 1; y < grid.height; y += 2)
       for (int x = 1; x < grid.width; x += 2) {
         const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
@@ -341,7 +365,7 @@ void measure_noise(const std::vector<Grid>& grids, const Bare& bare, ScreenModel
 // Median of each channel over the plate.
 void measure_color(ScreenModel& screen) {
   for (int c = 0; c < 3; ++c) {
-    std::vector<float> values = screen.cells[2 - c];
+    std::vector<float> values = screen.cells[c];
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     screen.color[c] = *middle;
@@ -414,13 +438,13 @@ void model_colored(std::span<const Frame> frames, const std::vector<Grid>& grids
     const double y = surface.ycc.at(0, u, v);
     const double b = y + surface.ycc.at(1, u, v) / 0.564;
     const double r = y + surface.ycc.at(2, u, v) / 0.713;
-    bare.centre[0][i] = static_cast<float>(b);
+    bare.centre[0][i] = static_cast<float>(r);
     bare.centre[1][i] = static_cast<float>((y - 0.114 * b - 0.299 * r) / 0.587);
-    bare.centre[2][i] = static_cast<float>(r);
+    bare.centre[2][i] = static_cast<float>(b);
   }
   find_bare(grids, bare);
   average_bare(frames, grids, bare, screen);
-  measure_noise(grids, bare, screen);
+  measure_noise(frames, grids, bare, screen);
   measure_color(screen);
   screen.kind = KeyKind::Color;
   screen.key = choose_key(screen.color);
@@ -440,7 +464,7 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
                      " of it differs from its own median over time; due: a screen of one colour or "
                      "a camera that stands still"};
   average_bare(frames, grids, bare, screen);
-  measure_noise(grids, bare, screen);
+  measure_noise(frames, grids, bare, screen);
   measure_color(screen);
   screen.kind = KeyKind::Plate;
   screen.reason =
@@ -451,8 +475,8 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
 // What the subject's own figures have to say: how strong its colours are against the key, and how
 // large it is.
 void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
+  detail::prepare_model(screen);
   detail::Silhouette s;
-  const auto& light = detail::linear_of_sums();
   std::vector<std::uint32_t> strengths(400);  // v in fiftieths
   std::uint64_t strength_count = 0;
   std::vector<std::uint32_t> contrasts(512);
@@ -476,16 +500,11 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
     const Mask deep = erode(s.mask, 4);
     for (std::size_t i = 0; i < deep.in.size(); ++i) {
       if (!deep.in[i]) continue;
-      float plate[3];
-      for (int p = 0; p < 3; ++p)
-        plate[p] = light[static_cast<std::size_t>(
-            std::clamp(4 * screen.cells[p][i] + 0.5f, 0.0f, 1020.0f))];
-      const float full = detail::key_strength(screen.key, plate[2], plate[1], plate[0]);
+      const float full =
+          detail::key_strength(screen.key, s.plate[0][i], s.plate[1][i], s.plate[2][i]);
       if (!(full > 0.02f)) continue;
       const float v =
-          1 - detail::key_strength(screen.key, light[s.grid.plane[2][i]], light[s.grid.plane[1][i]],
-                                   light[s.grid.plane[0][i]]) /
-                  full;
+          1 - detail::key_strength(screen.key, s.frame[0][i], s.frame[1][i], s.frame[2][i]) / full;
       ++strengths[static_cast<std::size_t>(std::clamp(v * 50, 0.0f, 399.0f))];
       ++strength_count;
     }
@@ -549,7 +568,7 @@ Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfi
   if (config.kind != KeyKind::Plate) {
     ScreenColor color;
     if (config.color_given) {
-      const Ycc given = ycc(config.blue, config.green, config.red);
+      const Ycc given = ycc(config.red, config.green, config.blue);
       color = {static_cast<double>(given.cb), static_cast<double>(given.cr),
                static_cast<double>(given.y)};
     } else {

@@ -40,18 +40,21 @@ struct ScreenModel {
   std::string reason;  ///< why this kind: one sentence for the report
   int width = 0, height = 0;
   Frame plate;
-  std::vector<std::uint16_t> luma;  ///< (height, width) 64 x Y of the plate, finer than its 8 bits
-  float color[3] = {};              ///< median screen colour, R G B, 0..255
-  float noise[3] = {};              ///< rms over time of the bare screen, Y Cb Cr, code values
+  float color[3] = {};  ///< median screen colour, R G B, 0..255
+  float noise[3] = {};  ///< rms over time of the bare screen, Y Cb Cr, code values
 
-  // What the keyer works with. A cell is 2 x 2 pixels; planes are B, G, R as in Grid.
-  std::vector<float> cells[3];  ///< (cell rows, cell columns) mean of the plate, code values
-  float threshold = 9;          ///< code values: what differs less is screen
-  int key = -1;                 ///< index of the colour difference that marks the screen, -1: none
-  float key_normaliser = 1;     ///< the subject's usual key strength, >= 1 (film/unmix.h)
-  float subject_contrast = 0;   ///< the subject's usual distance from the plate, code values
-  int opening = 2;              ///< cells, radius that removes tail and fins from the anchor's mask
-  float hidden = 0;             ///< share of the plate that was never seen bare, 0..1
+  // What the keyer works with. A cell is 2 x 2 pixels; planes are R, G, B as in Grid.
+  std::vector<float> cells[3];           ///< mean of the plate, encoded, code values
+  std::vector<float> linear[3];          ///< the same in linear light
+  std::vector<float> slope[3];           ///< of the transfer there, linear light a code value
+  std::vector<std::uint16_t> cell_luma;  ///< sum of four Y of the plate
+  std::vector<std::uint16_t> luma;       ///< of each pixel, linear light x 65535
+  float threshold = 9;                   ///< code values: what differs less is screen
+  int key = -1;                ///< index of the colour difference that marks the screen, -1: none
+  float key_normaliser = 1;    ///< the subject's usual key strength, >= 1 (film/unmix.h)
+  float subject_contrast = 0;  ///< the subject's usual distance from the plate, code values
+  int opening = 2;             ///< cells, radius that removes tail and fins from the anchor's mask
+  float hidden = 0;            ///< share of the plate that was never seen bare, 0..1
 };
 
 /// Measures the screen. `frames`: 8 or more, spread over the film. Errors: BadContent (no steady

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "film/color.h"
 #include "film/light.h"
 
 namespace vsprite::detail {
@@ -73,94 +74,189 @@ bool SurfaceFit::solve(Surface& surface) const {
   return true;
 }
 
+namespace {
+
+// Cells spread over the frame and their distance from the plate.
+struct DriftSample {
+  double u, v;
+  float residual[3];
+};
+
+std::vector<DriftSample> sample_drift(const ScreenModel& screen, const Frame& frame, int step) {
+  std::vector<DriftSample> samples;
+  const RgbOfYcc m = rgb_of_ycc(frame.coding);
+  const int w = frame.cell_width();
+  const int h = frame.cell_height();
+  const auto luma = [&](int x, int y) {
+    return static_cast<int>(frame.y[static_cast<std::size_t>(std::min(y, frame.height - 1)) *
+                                        static_cast<std::size_t>(frame.width) +
+                                    static_cast<std::size_t>(std::min(x, frame.width - 1))]);
+  };
+  for (int y = step / 2; y < h; y += step)
+    for (int x = step / 2; x < w; x += step) {
+      const std::size_t i =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(w) + static_cast<std::size_t>(x);
+      const int sum = luma(2 * x, 2 * y) + luma(2 * x + 1, 2 * y) + luma(2 * x, 2 * y + 1) +
+                      luma(2 * x + 1, 2 * y + 1);
+      const auto rgb = m.sums(sum, frame.cb[i], frame.cr[i], 4);
+      DriftSample s{scaled(x, w), scaled(y, h), {}};
+      for (std::size_t p = 0; p < 3; ++p)
+        s.residual[p] = 0.25f * static_cast<float>(rgb[p]) - screen.cells[p][i];
+      samples.push_back(s);
+    }
+  return samples;
+}
+
+}  // namespace
+
 // The residual of the sure background, some thousand cells of it, in four rounds. Each round
 // believes what lies near the round before.
-Surface fit_drift(const ScreenModel& screen, const Grid& grid, float reach) {
+Surface fit_drift(const ScreenModel& screen, const Frame& frame, float reach) {
   Surface drift;
-  const int step = std::max(4, grid.width / 40);
+  const int step = std::max(4, frame.cell_width() / 32);
+  const auto samples = sample_drift(screen, frame, step);
   for (const float limit : {4 * reach, 2 * reach, reach, reach}) {
     SurfaceFit fit;
-    for (int y = step / 2; y < grid.height; y += step) {
-      const double v = scaled(y, grid.height);
-      for (int x = step / 2; x < grid.width; x += step) {
-        const double u = scaled(x, grid.width);
-        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
-                              static_cast<std::size_t>(x);
-        double residual[3];
-        float left[3];
-        for (int p = 0; p < 3; ++p) {
-          residual[p] = 0.25 * grid.plane[p][i] - static_cast<double>(screen.cells[p][i]);
-          left[p] = static_cast<float>(residual[p] - drift.at(p, u, v));
-        }
-        if (distance_squared(left[0], left[1], left[2]) < limit * limit) fit.add(u, v, residual);
+    for (const DriftSample& s : samples) {
+      float left[3];
+      double residual[3];
+      for (int p = 0; p < 3; ++p) {
+        residual[p] = static_cast<double>(s.residual[p]);
+        left[p] = static_cast<float>(residual[p] - drift.at(p, s.u, s.v));
       }
+      if (distance_squared(left[0], left[1], left[2]) < limit * limit) fit.add(s.u, s.v, residual);
     }
     // Too little screen in sight: the film's plate stands.
-    if (fit.count() * step * step * 20 < static_cast<int>(grid.cells())) return Surface{};
+    if (fit.count() * 20 < static_cast<int>(samples.size())) return Surface{};
     fit.solve(drift);
   }
   return drift;
 }
 
-namespace {
-
-// C = s B in linear light within 12 %, 0.35 < s < 1.3: the screen in shade.
-bool on_shadow_line(const float (&c)[3], const float (&b)[3]) {
-  const float bb = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
-  if (!(bb > 0)) return false;
-  const float s = (c[0] * b[0] + c[1] * b[1] + c[2] * b[2]) / bb;
-  if (s < 0.35f || s > 1.3f) return false;
-  float rest = 0;
-  for (int p = 0; p < 3; ++p) rest += (c[p] - s * b[p]) * (c[p] - s * b[p]);
-  return rest < 0.12f * 0.12f * s * s * bb;
+KeyShape shape_of(int key) noexcept {
+  const int main = std::max(key, 0) % 3;
+  return {main, (main + 1) % 3, (main + 2) % 3, key < 3};
 }
 
-// Contrast of each cell to the frame's own plate, smoothed over 3 x 3.
-void measure_contrast(const ScreenModel& screen, Silhouette& s) {
-  const Grid& grid = s.grid;
-  const int w = grid.width;
-  s.contrast.resize(grid.cells());
-  const float step = w > 1 ? 2.0f / static_cast<float>(w - 1) : 0.0f;
-  for (int y = 0; y < grid.height; ++y) {
-    const double v = scaled(y, grid.height);
-    const SurfaceRow blue = row_of(s.drift, 0, v);
-    const SurfaceRow green = row_of(s.drift, 1, v);
-    const SurfaceRow red = row_of(s.drift, 2, v);
-    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
-    const std::uint16_t* frame[3] = {grid.plane[0].data() + at, grid.plane[1].data() + at,
-                                     grid.plane[2].data() + at};
-    const float* plate[3] = {screen.cells[0].data() + at, screen.cells[1].data() + at,
-                             screen.cells[2].data() + at};
-    float* out = s.contrast.data() + at;
-    for (int x = 0; x < w; ++x) {
-      const float u = step * static_cast<float>(x) - 1;
-      out[x] = std::sqrt(distance_squared(0.25f * frame[0][x] - plate[0][x] - blue.at(u),
-                                          0.25f * frame[1][x] - plate[1][x] - green.at(u),
-                                          0.25f * frame[2][x] - plate[2][x] - red.at(u)));
+void prepare_model(ScreenModel& screen) {
+  const auto& light = linear_of_sums();
+  for (int p = 0; p < 3; ++p) {
+    const std::size_t n = screen.cells[p].size();
+    screen.linear[p].resize(n);
+    screen.slope[p].resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const float code = std::clamp(4 * screen.cells[p][i], 0.0f, 1020.0f);
+      const std::size_t low = std::min(static_cast<std::size_t>(code), std::size_t{1019});
+      screen.linear[p][i] =
+          light[low] + (light[low + 1] - light[low]) * (code - static_cast<float>(low));
+      const std::size_t above = std::min(low + 4, std::size_t{1020});
+      const std::size_t below = low > 4 ? low - 4 : 0;
+      screen.slope[p][i] = 4 * (light[above] - light[below]) / static_cast<float>(above - below);
     }
   }
 }
 
-// A screen in shade is screen: its contrast is struck out.
-void forgive_shadows(const ScreenModel& screen, Silhouette& s) {
-  const Grid& grid = s.grid;
-  const auto& light = linear_of_sums();
-  for (int y = 0; y < grid.height; ++y) {
-    const double v = scaled(y, grid.height);
-    for (int x = 0; x < grid.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
-                            static_cast<std::size_t>(x);
-      if (s.contrast[i] <= 0.5f * screen.threshold) continue;
-      const double u = scaled(x, grid.width);
-      float c[3];
-      float b[3];
-      for (int p = 0; p < 3; ++p) {
-        c[p] = light[grid.plane[p][i]];
-        const float code = 4 * (screen.cells[p][i] + static_cast<float>(s.drift.at(p, u, v)));
-        b[p] = light[static_cast<std::size_t>(std::clamp(code + 0.5f, 0.0f, 1020.0f))];
-      }
-      if (on_shadow_line(c, b)) s.contrast[i] = 0;
+namespace {
+
+constexpr int kBlockWide = 32;  // cells
+constexpr int kBlockHigh = 4;
+constexpr int kWindowMargin = 8;
+constexpr int kFewest = 3;  // different cells that make a block worth a look
+
+// Limits of every block of a row: those of the silhouette less what smoothing may add, about the
+// frame's own drift.
+void set_limits(const ScreenModel& screen, const YccOfRgb& m, const Surface& drift, double v,
+                int width, std::vector<RowLimits>& limits) {
+  const RowTerms red = row_of(drift, 0, v);
+  const RowTerms green = row_of(drift, 1, v);
+  const RowTerms blue = row_of(drift, 2, v);
+  const auto whole = [](float x) {
+    return static_cast<std::int16_t>(std::clamp(x < 0 ? x - 0.5f : x + 0.5f, -2000.0f, 2000.0f));
+  };
+  const std::int16_t limit_y = whole(4 * m.luma * 0.6f * screen.threshold);
+  const std::int16_t limit_c = whole(m.color * 0.45f * screen.threshold);
+  const RowScale scale = scale_of(0, width);
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    const int middle = std::min(static_cast<int>(k) * kBlockWide + kBlockWide / 2, width - 1);
+    const float u = scale.first + scale.step * static_cast<float>(middle);
+    const auto at = [u](const RowTerms& t) { return t.a + u * (t.b + u * t.c); };
+    const float r = at(red);
+    const float b = at(blue);
+    const float y = m.red * r + m.green * at(green) + m.blue * b;
+    limits[k] = {whole(4 * m.luma * y), limit_y, whole(m.color * (b - y) / (2 - 2 * m.blue)),
+                 whole(m.color * (r - y) / (2 - 2 * m.red)), limit_c};
+  }
+}
+
+// The rectangle of all blocks that differ from the plate; most blocks of most frames end here.
+Window find_window(const ScreenModel& screen, const Frame& frame, const Surface& drift) {
+  const int w = frame.cell_width();
+  const int h = frame.cell_height();
+  const YccOfRgb m = ycc_of_rgb(screen.plate.coding);
+  std::vector<RowLimits> limits(static_cast<std::size_t>((w + kBlockWide - 1) / kBlockWide));
+  std::vector<int> counts(limits.size());
+  int left = w;
+  int right = 0;
+  int top = h;
+  int bottom = 0;
+  for (int y = 0; y < h; y += kBlockHigh) {
+    set_limits(screen, m, drift, scaled(std::min(y + kBlockHigh / 2, h - 1), h), w, limits);
+    std::fill(counts.begin(), counts.end(), 0);
+    for (int row = y; row < std::min(y + kBlockHigh, h); ++row) {
+      const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(w);
+      const std::uint8_t* first = frame.y.data() + static_cast<std::size_t>(2 * row) *
+                                                       static_cast<std::size_t>(frame.width);
+      const std::uint8_t* second = 2 * row + 1 < frame.height ? first + frame.width : first;
+      lanes().count_different(first, second, frame.cb.data() + cell, frame.cr.data() + cell,
+                              screen.cell_luma.data() + cell, screen.plate.cb.data() + cell,
+                              screen.plate.cr.data() + cell, frame.width / 2, kBlockWide,
+                              limits.data(), counts.data());
     }
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      if (counts[k] < kFewest) continue;
+      const int x = static_cast<int>(k) * kBlockWide;
+      left = std::min(left, x);
+      right = std::max(right, x + kBlockWide);
+      top = std::min(top, y);
+      bottom = y + kBlockHigh;
+    }
+  }
+  if (right <= left) return {};
+  left = std::max(left - kWindowMargin, 0);
+  top = std::max(top - kWindowMargin, 0);
+  return {left, top, std::min(right + kWindowMargin, w) - left,
+          std::min(bottom + kWindowMargin, h) - top};
+}
+
+// The window in linear light, and the contrast of each cell to the frame's own plate.
+void look_closely(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
+  make_grid(frame, s.window, s.grid);
+  const std::size_t n = s.window.cells();
+  for (int p = 0; p < 3; ++p) {
+    s.frame[p].resize(n);
+    s.plate[p].resize(n);
+    lanes().look_up(linear_of_sums().data(), s.grid.plane[p].data(), static_cast<int>(n),
+                    s.frame[p].data());
+  }
+  s.rough.resize(n);
+  const int w = frame.cell_width();
+  const RowScale u = scale_of(s.window.left, w);
+  for (int y = 0; y < s.window.height; ++y) {
+    const double v = scaled(s.window.top + y, frame.cell_height());
+    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(s.window.width);
+    const std::size_t from =
+        static_cast<std::size_t>(s.window.top + y) * static_cast<std::size_t>(w) +
+        static_cast<std::size_t>(s.window.left);
+    const RowTerms drift[3] = {row_of(s.drift, 0, v), row_of(s.drift, 1, v), row_of(s.drift, 2, v)};
+    const std::uint16_t* sums[3];
+    const float* plate[3];
+    for (int p = 0; p < 3; ++p) {
+      sums[p] = s.grid.plane[p].data() + at;
+      plate[p] = screen.cells[p].data() + from;
+      lanes().shift(screen.linear[p].data() + from, screen.slope[p].data() + from, drift[p], u,
+                    s.window.width, s.plate[p].data() + at);
+    }
+    lanes().contrast(sums, plate, drift, u, s.window.width, s.rough.data() + at);
   }
 }
 
@@ -169,38 +265,58 @@ void forgive_shadows(const ScreenModel& screen, Silhouette& s) {
 void drop_faint(const ScreenModel& screen, Silhouette& s) {
   Mask strong(s.mask.width, s.mask.height);
   const float least = std::max(2 * screen.threshold, 0.2f * screen.subject_contrast);
-  for (std::size_t i = 0; i < strong.in.size(); ++i) strong.in[i] = s.contrast[i] > least ? 1 : 0;
+  lanes().above(s.contrast.data(), least, strong.in.size(), strong.in.data());
   const Mask near = dilate(strong, 3);
-  for (std::size_t i = 0; i < near.in.size(); ++i) s.mask.in[i] &= near.in[i];
+  lanes().spread_into(near.in.data(), near.in.size(), false, s.mask.in.data());
+}
+
+// The rectangle of what is in.
+bool find_box(const Mask& mask, Window& box) {
+  int left = mask.width;
+  int right = 0;
+  int top = mask.height;
+  int bottom = 0;
+  for (int y = 0; y < mask.height; ++y) {
+    const std::uint8_t* row = mask.row(y);
+    const std::uint8_t* end = row + mask.width;
+    const std::uint8_t* first = std::find(row, end, 1);
+    if (first == end) continue;
+    const std::uint8_t* last = end;
+    while (!last[-1]) --last;
+    left = std::min(left, static_cast<int>(first - row));
+    right = std::max(right, static_cast<int>(last - row));
+    top = std::min(top, y);
+    bottom = y + 1;
+  }
+  box = {left, top, right - left, bottom - top};
+  return right > left;
 }
 
 }  // namespace
 
 void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
-  make_grid(frame, s.grid);
-  s.drift = fit_drift(screen, s.grid, screen.threshold);
-  measure_contrast(screen, s);
-  if (screen.key >= 0) forgive_shadows(screen, s);
-  std::vector<float> scratch;
-  blur(s.contrast, s.grid.width, s.grid.height, 1, 1, scratch);
-  s.mask = Mask(s.grid.width, s.grid.height);
-  for (std::size_t i = 0; i < s.mask.in.size(); ++i)
-    s.mask.in[i] = s.contrast[i] > screen.threshold ? 1 : 0;
+  s.empty = true;
+  s.drift = fit_drift(screen, frame, screen.threshold);
+  s.window = find_window(screen, frame, s.drift);
+  s.mask = Mask(s.window.width, s.window.height);
+  if (s.window.cells() == 0) return;
+  look_closely(screen, frame, s);
+  const std::size_t n = s.window.cells();
+  const float* c[3] = {s.frame[0].data(), s.frame[1].data(), s.frame[2].data()};
+  const float* b[3] = {s.plate[0].data(), s.plate[1].data(), s.plate[2].data()};
+  if (screen.key >= 0) lanes().forgive_shadows(c, b, n, s.rough.data());
+  s.contrast.resize(n);
+  s.scratch.resize(n);
+  lanes().blur3(s.rough.data(), s.window.width, s.window.height, s.scratch.data(),
+                s.contrast.data());
+  lanes().above(s.contrast.data(), screen.threshold, n, s.mask.in.data());
   if (screen.key < 0) drop_faint(screen, s);
   s.mask = dilate(erode(s.mask, 1), 1);
   s.mask = erode(dilate(s.mask, 2), 2);
-  s.left = s.grid.width;
-  s.top = s.grid.height;
-  s.right = s.bottom = 0;
-  for (int y = 0; y < s.grid.height; ++y)
-    for (int x = 0; x < s.grid.width; ++x)
-      if (s.mask.row(y)[x]) {
-        s.left = std::min(s.left, x);
-        s.right = std::max(s.right, x + 1);
-        s.top = std::min(s.top, y);
-        s.bottom = std::max(s.bottom, y + 1);
-      }
-  s.empty = s.right <= s.left;
+  if (!find_box(s.mask, s.box)) return;
+  s.box.left += s.window.left;
+  s.box.top += s.window.top;
+  s.empty = false;
 }
 
 }  // namespace vsprite::detail

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "film/grid.h"
+#include "film/lanes.h"
 #include "film/plate.h"
 
 namespace vsprite::detail {
@@ -38,33 +39,40 @@ class SurfaceFit {
   int count_ = 0;
 };
 
-/// The coefficients of one row of a surface: a + u (b + u c).
-struct SurfaceRow {
-  float a, b, c;
-  float at(float u) const { return a + u * (b + u * c); }
-};
-inline SurfaceRow row_of(const Surface& s, int plane, double y) {
+/// One row of a surface, for the lanes.
+inline RowTerms row_of(const Surface& s, int plane, double y) {
   const double* k = s.coefficient[plane];
   return {static_cast<float>(k[0] + k[2] * y + k[5] * y * y), static_cast<float>(k[1] + k[4] * y),
           static_cast<float>(k[3])};
 }
+/// The scaled x of a window's cells on a grid `width` wide.
+inline RowScale scale_of(int left, int width) {
+  const double step = width > 1 ? 2.0 / (width - 1) : 0.0;
+  return {static_cast<float>(width > 1 ? step * left - 1 : 0.0), static_cast<float>(step)};
+}
 
-/// A frame's own plate: the film's plate and the drift of exposure since, and what differs from it.
+/// Where a frame may differ from its plate, and what it looks like there. All maps are those of
+/// `window`, planes are R, G, B.
 struct Silhouette {
-  Grid grid;                    ///< the frame
   Surface drift;                ///< frame - plate on the bare screen, code values
+  Window window;                ///< what was looked at: blocks that differ, and a margin
+  Grid grid;                    ///< the frame, encoded
+  std::vector<float> frame[3];  ///< the same in linear light
+  std::vector<float> plate[3];  ///< the plate with the drift, in linear light
   std::vector<float> contrast;  ///< smoothed distance to the plate, code values
-  Mask mask;                    ///< whole grid, 1 = not screen
+  Mask mask;                    ///< 1 = not screen
   bool empty = true;
-  int left = 0, top = 0, right = 0,
-      bottom = 0;  ///< cells, box of the mask, right and bottom outside
+  Window box;  ///< of the mask, on the film's grid
+
+  // Working room.
+  std::vector<float> rough, scratch;
 };
 
 /// Scaled coordinate of cell index i of n: -1..1.
 inline double scaled(int i, int n) { return n > 1 ? 2.0 * i / (n - 1) - 1 : 0.0; }
 
 /// Luma and colour together; colour is the steadier witness in a compressed film and counts double.
-inline float distance_squared(float b, float g, float r) {
+inline float distance_squared(float r, float g, float b) {
   const float y = 0.114f * b + 0.587f * g + 0.299f * r;
   const float cb = 0.564f * (b - y);
   const float cr = 0.713f * (r - y);
@@ -73,7 +81,13 @@ inline float distance_squared(float b, float g, float r) {
 
 /// The drift of the bare screen in a frame, code values; what differs by more than `reach` from the
 /// plate and the drift is not believed.
-Surface fit_drift(const ScreenModel& screen, const Grid& grid, float reach);
+Surface fit_drift(const ScreenModel& screen, const Frame& frame, float reach);
+
+/// Completes a model whose plate is known: what the keyer reads for every frame.
+void prepare_model(ScreenModel& screen);
+
+/// The channels of colour difference `key`.
+KeyShape shape_of(int key) noexcept;
 
 /// Finds what is not screen. The result's buffers are reused from call to call.
 void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& result);

@@ -17,337 +17,251 @@ namespace {
 constexpr int kMargin = 4;              // cells around the silhouette
 constexpr float kSpill = 0.05f;         // share of the plate in a foreground near it, and at the
 constexpr float kRimSpill = 0.08f;      // rim, where screen light falls from behind
-constexpr float kShading = 0.1f;        // relative sigma of the foreground's brightness
-constexpr float kHue = 0.04f;           // sigma of its colour, relative to its luma
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one
 constexpr float kGlobalWeight = 1e-4f;  // of the whole patch
+constexpr std::size_t kRoom = 16;       // cells behind the last
 
-float luma(float r, float g, float b) { return 0.2126f * r + 0.7152f * g + 0.0722f * b; }
-
-// Evidence of coverage in one cell, before any foreground is known.
-struct Evidence {
-  std::vector<float> key;    // v / normaliser, or distance against its local maximum
-  std::vector<float> raw;    // v, or the same
-  std::vector<float> bound;  // alpha below this puts F outside the gamut
-};
-
-// Smallest alpha for which F = B + D / alpha lies in [0, 1]^3; two sigma of noise are taken off.
-float gamut_bound(const Patch& patch, std::size_t i) {
-  float bound = 0;
-  for (int p = 0; p < 3; ++p) {
-    const float b = patch.plate[p][i];
-    const float d = patch.frame[p][i] - b;
-    const float sure = std::abs(d) - 2 * patch.noise[p][i];
-    if (sure <= 0) continue;
-    const float room = d > 0 ? 1 - b : b;
-    bound = std::max(bound, room > 1e-4f ? sure / room : 1.0f);
+// sigma_n in linear light of `codes` code values at each sum of four.
+std::vector<float> noise_of_sums(float codes) {
+  const auto& light = linear_of_sums();
+  std::vector<float> noise(light.size());
+  for (std::size_t s = 0; s < noise.size(); ++s) {
+    const std::size_t above = std::min(s + 4, noise.size() - 1);
+    const std::size_t below = s > 4 ? s - 4 : 0;
+    noise[s] = codes * 4 * (light[above] - light[below]) / static_cast<float>(above - below);
   }
-  return std::min(bound, 1.0f);
+  return noise;
 }
 
+struct Pointers {
+  float* at[3];
+  explicit Pointers(std::vector<float> (&planes)[3], std::size_t offset = 0)
+      : at{planes[0].data() + offset, planes[1].data() + offset, planes[2].data() + offset} {}
+};
+struct ConstPointers {
+  const float* at[3];
+  explicit ConstPointers(const std::vector<float> (&planes)[3], std::size_t offset = 0)
+      : at{planes[0].data() + offset, planes[1].data() + offset, planes[2].data() + offset} {}
+};
+
+// The largest in a square of (2 radius + 1)^2.
 std::vector<float> largest_around(const std::vector<float>& plane, int width, int height,
                                   int radius) {
+  const auto w = static_cast<std::size_t>(width);
   std::vector<float> rows = plane;
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-           static_cast<std::size_t>(x);
-  };
   for (int y = 0; y < height; ++y)
     for (int k = 1; k <= radius; ++k) {
-      for (int x = k; x < width; ++x)
-        rows[at(x, y)] = std::max(rows[at(x, y)], plane[at(x - k, y)]);
-      for (int x = 0; x + k < width; ++x)
-        rows[at(x, y)] = std::max(rows[at(x, y)], plane[at(x + k, y)]);
+      const float* in = plane.data() + static_cast<std::size_t>(y) * w;
+      float* out = rows.data() + static_cast<std::size_t>(y) * w;
+      for (int x = k; x < width; ++x) out[x] = std::max(out[x], in[x - k]);
+      for (int x = 0; x + k < width; ++x) out[x] = std::max(out[x], in[x + k]);
     }
   std::vector<float> both = rows;
   for (int y = 0; y < height; ++y)
-    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v)
-      for (int x = 0; x < width; ++x) both[at(x, y)] = std::max(both[at(x, y)], rows[at(x, v)]);
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, height - 1); ++v) {
+      const float* in = rows.data() + static_cast<std::size_t>(v) * w;
+      float* out = both.data() + static_cast<std::size_t>(y) * w;
+      for (int x = 0; x < width; ++x) out[x] = std::max(out[x], in[x]);
+    }
   return both;
 }
 
-Evidence gather_evidence(const ScreenModel& screen, const Patch& patch) {
-  Evidence e;
+// Evidence of coverage before any foreground is known: v, or the distance to the plate against its
+// largest nearby; and the smallest alpha for which F lies in the gamut.
+void gather_evidence(const ScreenModel& screen, Patch& patch) {
   const std::size_t n = patch.cells();
-  e.key.assign(n, 0);
-  e.raw.assign(n, 0);
-  e.bound.assign(n, 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!patch.region.in[i]) continue;
-    e.bound[i] = gamut_bound(patch, i);
-    const float b =
-        key_strength(screen.key, patch.plate[0][i], patch.plate[1][i], patch.plate[2][i]);
-    if (screen.key >= 0 && b > 0.02f) {
-      e.raw[i] =
-          1 - key_strength(screen.key, patch.frame[0][i], patch.frame[1][i], patch.frame[2][i]) / b;
-      e.key[i] = e.raw[i] / screen.key_normaliser;
-    } else {
-      float d = 0;
-      for (int p = 0; p < 3; ++p) {
-        const float x = patch.frame[p][i] - patch.plate[p][i];
-        d += x * x;
-      }
-      e.raw[i] = std::sqrt(d);
-    }
+  patch.bound.resize(n + kRoom);
+  patch.key.resize(n + kRoom);
+  const ConstPointers frame(patch.frame);
+  const ConstPointers plate(patch.plate);
+  const ConstPointers noise(patch.noise);
+  lanes().gamut_bound(frame.at, plate.at, noise.at, n, patch.bound.data());
+  if (screen.key >= 0) {
+    lanes().key_share(frame.at, plate.at, shape_of(screen.key), n, patch.key.data());
+    return;
   }
-  if (screen.key >= 0) return e;
-  // No key: the distance to the plate against the largest in 9 x 9.
-  const std::vector<float> most = largest_around(e.raw, patch.width, patch.height, 4);
+  lanes().distance(frame.at, plate.at, n, patch.key.data());
   for (std::size_t i = 0; i < n; ++i)
-    if (patch.region.in[i]) e.key[i] = 1.25f * e.raw[i] / std::clamp(most[i], 0.02f, 0.3f);
-  e.raw = e.key;
-  return e;
+    if (!patch.region.in[i]) patch.key[i] = 0;
+  const std::vector<float> most = largest_around(patch.key, patch.width, patch.height, 4);
+  for (std::size_t i = 0; i < n; ++i)
+    patch.key[i] = 1.25f * patch.key[i] / std::clamp(most[i], 0.02f, 0.3f);
 }
 
 // Holes are filled unless a cell of theirs looks like screen.
-void fill_holes(const Patch& patch, const Evidence& e, Mask& seeds) {
+void fill_holes(const Patch& patch, Mask& seeds) {
   Mask rest(seeds.width, seeds.height);
-  for (std::size_t i = 0; i < rest.in.size(); ++i) rest.in[i] = seeds.in[i] ? 0 : 1;
+  Mask screen_like(seeds.width, seeds.height);
+  for (std::size_t i = 0; i < rest.in.size(); ++i) {
+    rest.in[i] = seeds.in[i] ? 0 : 1;
+    const bool like = (patch.key[i] < 0.35f) & (patch.bound[i] < 0.5f);
+    screen_like.in[i] = (!patch.region.in[i]) | like;
+  }
   std::vector<int> labels;
   const int parts = connected_parts(rest, labels);
   std::vector<std::uint8_t> open(static_cast<std::size_t>(parts) + 1);
-  for (int y = 0; y < rest.height; ++y)
-    for (int x = 0; x < rest.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(rest.width) +
-                            static_cast<std::size_t>(x);
-      const bool border = x == 0 || y == 0 || x == rest.width - 1 || y == rest.height - 1;
-      if (border || !patch.region.in[i] || (e.raw[i] < 0.35f && e.bound[i] < 0.5f))
-        open[static_cast<std::size_t>(labels[i])] = 1;
-    }
+  open[0] = 1;
+  for (int y = 0; y < rest.height; ++y) {
+    const int* label = labels.data() + static_cast<std::ptrdiff_t>(y) * rest.width;
+    const std::uint8_t* like = screen_like.row(y);
+    const bool edge = y == 0 || y == rest.height - 1;
+    open[static_cast<std::size_t>(label[0])] = 1;
+    open[static_cast<std::size_t>(label[rest.width - 1])] = 1;
+    for (int x = 0; x < rest.width; ++x)
+      if (label[x] && (edge || like[x])) open[static_cast<std::size_t>(label[x])] = 1;
+  }
+  if (std::find(open.begin(), open.end(), 0) == open.end()) return;
   for (std::size_t i = 0; i < rest.in.size(); ++i)
-    if (rest.in[i] && !open[static_cast<std::size_t>(labels[i])]) seeds.in[i] = 1;
+    if (!open[static_cast<std::size_t>(labels[i])]) seeds.in[i] = 1;
 }
 
 // A screen without a key says nothing of translucence: what stands out, two cells inside, is
 // opaque.
 void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
   Mask strong(patch.width, patch.height);
-  for (std::size_t i = 0; i < strong.in.size(); ++i)
-    strong.in[i] = patch.core.in[i] && patch.contrast[i] > 2 * screen.threshold ? 1 : 0;
+  lanes().above(patch.contrast.data(), 2 * screen.threshold, strong.in.size(), strong.in.data());
+  lanes().spread_into(patch.core.in.data(), strong.in.size(), false, strong.in.data());
   const Mask inside = erode(strong, 2);
-  for (std::size_t i = 0; i < inside.in.size(); ++i) seeds.in[i] |= inside.in[i];
+  lanes().spread_into(inside.in.data(), seeds.in.size(), true, seeds.in.data());
 }
 
-void find_seeds(const ScreenModel& screen, const Patch& patch, const Evidence& e, Mask& seeds) {
+void find_seeds(const ScreenModel& screen, Patch& patch) {
   const std::size_t n = patch.cells();
   // Deep inside less is enough, but not of a subject much stronger than the key: there half the
   // strength is a translucent fin.
   const float enough = screen.key_normaliser > 1.5f ? 0.8f : 0.5f;
   Mask sure(patch.width, patch.height);
   Mask likely(patch.width, patch.height);
+  const float inverse = screen.key >= 0 ? 1 / screen.key_normaliser : 1.0f;
   for (std::size_t i = 0; i < n; ++i) {
-    const float score = std::max(e.key[i], 1.15f * e.bound[i]);
-    sure.in[i] = patch.region.in[i] && score > 0.85f ? 1 : 0;
-    likely.in[i] = patch.region.in[i] && score > enough ? 1 : 0;
+    const float score = std::max(patch.key[i] * inverse, 1.15f * patch.bound[i]);
+    sure.in[i] = score > 0.85f ? patch.region.in[i] : std::uint8_t{0};
+    likely.in[i] = score > enough ? patch.region.in[i] : std::uint8_t{0};
   }
-  seeds = erode(erode(dilate(sure, 1), 1), 1);
-  if (screen.key < 0) add_inside(screen, patch, seeds);
+  patch.seeds = erode(dilate(sure, 1), 2);
+  if (screen.key < 0) add_inside(screen, patch, patch.seeds);
+  Mask deep = erode_disc(patch.region, 5);
   const Mask all_likely = erode(likely, 2);
-  const auto depth = distance_to(patch.region, 0);
-  for (std::size_t i = 0; i < n; ++i)
-    if (depth[i] > 5 * 5 && all_likely.in[i]) seeds.in[i] = 1;
-  fill_holes(patch, e, seeds);
+  lanes().spread_into(all_likely.in.data(), n, false, deep.in.data());
+  lanes().spread_into(deep.in.data(), n, true, patch.seeds.in.data());
+  fill_holes(patch, patch.seeds);
 }
 
-// Weighted sums of 1, the three channels and their six products: near (sigma 2 cells), wide (sigma
-// about 10, kept in squares of four by four cells) and over the patch.
-struct Moments {
-  static constexpr int kCount = 10;
-  static constexpr int kCoarse = 4;
-  std::vector<float> near[kCount], wide[kCount];
-  int wide_width = 0, wide_height = 0;
-  float all[kCount] = {};
-};
-
-void gather_moments(const Patch& patch, const std::vector<float>& weight,
-                    const std::vector<float> (&color)[3], Moments& m) {
-  const std::size_t n = patch.cells();
-  m.wide_width = (patch.width + Moments::kCoarse - 1) / Moments::kCoarse;
-  m.wide_height = (patch.height + Moments::kCoarse - 1) / Moments::kCoarse;
-  for (auto& plane : m.near) plane.assign(n, 0);
-  for (auto& plane : m.wide)
-    plane.assign(static_cast<std::size_t>(m.wide_width) * static_cast<std::size_t>(m.wide_height),
-                 0);
-  std::size_t i = 0;
-  for (int y = 0; y < patch.height; ++y)
-    for (int x = 0; x < patch.width; ++x, ++i) {
-      const float w = weight[i];
-      if (!(w > 0)) continue;
-      const float r = color[0][i];
-      const float g = color[1][i];
-      const float b = color[2][i];
-      const float value[Moments::kCount] = {1, r, g, b, r * r, r * g, r * b, g * g, g * b, b * b};
-      const std::size_t square =
-          static_cast<std::size_t>(y / Moments::kCoarse) * static_cast<std::size_t>(m.wide_width) +
-          static_cast<std::size_t>(x / Moments::kCoarse);
-      for (int k = 0; k < Moments::kCount; ++k) {
-        m.near[k][i] = w * value[k];
-        m.wide[k][square] += w * value[k] / (Moments::kCoarse * Moments::kCoarse);
-      }
-    }
-  std::vector<float> scratch;
-  for (int k = 0; k < Moments::kCount; ++k) {
+// Weighted sums of 1, the three channels and their six products under a near window (sigma about 2
+// cells, kept in squares of 2 x 2) and a wide one (sigma about 10, in squares of 4 x 4), with a
+// trace of the whole patch.
+void gather_moments(Patch& patch, const std::vector<float>& weight,
+                    const std::vector<float> (&color)[3]) {
+  const int w = (patch.width + 1) / 2;
+  const int h = (patch.height + 1) / 2;
+  const int ww = (w + 1) / 2;
+  const int wh = (h + 1) / 2;
+  const auto n = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
+  patch.scratch.resize(n + 2 * patch.cells());
+  std::vector<float>& near_all = patch.soft;
+  near_all.resize(n);
+  for (int k = 0; k < kMoments; ++k) patch.near[k].resize(n);
+  for (int y = 0; y < h; ++y) {
+    const auto top = static_cast<std::size_t>(2 * y) * static_cast<std::size_t>(patch.width);
+    const bool both = 2 * y + 1 < patch.height;
+    const auto low = both ? top + static_cast<std::size_t>(patch.width) : top;
+    float* out[kMoments];
+    for (int k = 0; k < kMoments; ++k)
+      out[k] = patch.near[k].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
+    const ConstPointers first(color, top);
+    const ConstPointers second(color, low);
+    lanes().moments(weight.data() + top, both ? weight.data() + low : nullptr, first.at, second.at,
+                    patch.width, out);
+  }
+  const std::vector<float> nothing(static_cast<std::size_t>(w));
+  for (int k = 0; k < kMoments; ++k) {
+    auto& near = patch.near[k];
+    auto& wide = patch.wide[k];
+    wide.assign(static_cast<std::size_t>(ww) * static_cast<std::size_t>(wh), 0);
     double all = 0;
-    for (const float value : m.wide[k]) all += static_cast<double>(value);
-    m.all[k] = static_cast<float>(all);
-    blur(m.near[k], patch.width, patch.height, 2, 2, scratch);
-    blur(m.wide[k], m.wide_width, m.wide_height, 2, 3, scratch);
-  }
-}
-
-// The four squares about a cell and their bilinear shares.
-struct Squares {
-  std::size_t at[4];
-  float share[4];
-
-  Squares(const Moments& m, int x, int y) {
-    const auto axis = [](int cell, int count, int& low, int& high, float& second) {
-      const int shifted = 2 * cell + 1 - Moments::kCoarse;  // half cells from the first middle
-      low = shifted < 0 ? 0 : shifted / (2 * Moments::kCoarse);
-      high = std::min(low + 1, count - 1);
-      second = shifted < 0 ? 0.0f
-                           : static_cast<float>(shifted % (2 * Moments::kCoarse)) /
-                                 static_cast<float>(2 * Moments::kCoarse);
-    };
-    int left = 0;
-    int right = 0;
-    int top = 0;
-    int low = 0;
-    float u = 0;
-    float v = 0;
-    axis(x, m.wide_width, left, right, u);
-    axis(y, m.wide_height, top, low, v);
-    const auto index = [&](int cx, int cy) {
-      return static_cast<std::size_t>(cy) * static_cast<std::size_t>(m.wide_width) +
-             static_cast<std::size_t>(cx);
-    };
-    at[0] = index(left, top);
-    at[1] = index(right, top);
-    at[2] = index(left, low);
-    at[3] = index(right, low);
-    share[0] = (1 - u) * (1 - v);
-    share[1] = u * (1 - v);
-    share[2] = (1 - u) * v;
-    share[3] = u * v;
-  }
-};
-
-struct Foreground {
-  float mean[3];
-  float covariance[6];  // rr rg rb gg gb bb
-};
-
-Foreground foreground_at(const Patch& patch, const Moments& m, std::size_t i, float spill) {
-  const Squares squares(m, static_cast<int>(i % static_cast<std::size_t>(patch.width)),
-                        static_cast<int>(i / static_cast<std::size_t>(patch.width)));
-  float sum[Moments::kCount];
-  for (int k = 0; k < Moments::kCount; ++k) {
-    float wide = 0;
-    for (int s = 0; s < 4; ++s) wide += squares.share[s] * m.wide[k][squares.at[s]];
-    sum[k] = m.near[k][i] + kFarWeight * wide + kGlobalWeight * m.all[k];
-  }
-  Foreground f{};
-  if (!(sum[0] > 0)) return f;
-  const float inverse = 1 / sum[0];
-  for (int p = 0; p < 3; ++p) f.mean[p] = sum[1 + p] * inverse;
-  constexpr int kFirst[6] = {0, 0, 0, 1, 1, 2};
-  constexpr int kSecond[6] = {0, 1, 2, 1, 2, 2};
-  const float hue = kHue * luma(f.mean[0], f.mean[1], f.mean[2]);
-  for (int k = 0; k < 6; ++k) {
-    const float product = f.mean[kFirst[k]] * f.mean[kSecond[k]];
-    f.covariance[k] = sum[4 + k] * inverse - product + kShading * kShading * product;
-    if (kFirst[k] == kSecond[k]) f.covariance[k] = std::max(f.covariance[k], 0.0f) + hue * hue;
-  }
-  for (int p = 0; p < 3; ++p) f.mean[p] += spill * patch.plate[p][i];
-  return f;
-}
-
-// S = a^2 Sigma_F + g sigma_n^2 I; its adjugate, and its determinant.
-struct Metric {
-  float rr, rg, rb, gg, gb, bb, determinant;
-
-  Metric(const Foreground& f, const Patch& patch, std::size_t i, float a, float gain) {
-    const float* c = f.covariance;
-    const float aa = a * a;
-    const auto noise = [&](int p) { return gain * patch.noise[p][i] * patch.noise[p][i]; };
-    const float s0 = aa * c[0] + noise(0);
-    const float s1 = aa * c[1];
-    const float s2 = aa * c[2];
-    const float s3 = aa * c[3] + noise(1);
-    const float s4 = aa * c[4];
-    const float s5 = aa * c[5] + noise(2);
-    rr = s3 * s5 - s4 * s4;
-    rg = s2 * s4 - s1 * s5;
-    rb = s1 * s4 - s2 * s3;
-    gg = s0 * s5 - s2 * s2;
-    gb = s1 * s2 - s0 * s4;
-    bb = s0 * s3 - s1 * s1;
-    determinant = s0 * rr + s1 * rg + s2 * rb;
-  }
-  float product(const float (&u)[3], const float (&v)[3]) const {
-    return u[0] * (rr * v[0] + rg * v[1] + rb * v[2]) + u[1] * (rg * v[0] + gg * v[1] + gb * v[2]) +
-           u[2] * (rb * v[0] + gb * v[1] + bb * v[2]);
-  }
-};
-
-// Two rounds of the projection from alpha = 1/2. `residual`: Mahalanobis, of what the line leaves.
-float project(const Patch& patch, const Foreground& f, std::size_t i, float least,
-              float* residual) {
-  float d[3];
-  float m[3];
-  for (int p = 0; p < 3; ++p) {
-    d[p] = patch.frame[p][i] - patch.plate[p][i];
-    m[p] = f.mean[p] - patch.plate[p][i];
-  }
-  float a = 0.5f;
-  for (int round = 0; round < 2; ++round) {
-    const Metric metric(f, patch, i, a, 1);
-    const float bottom = metric.product(m, m);
-    a = bottom > 0 ? metric.product(d, m) / bottom : 0.0f;
-    a = std::clamp(a, 0.02f, 1.0f);
-  }
-  a = std::max(a, least);
-  if (residual) {
-    const Metric metric(f, patch, i, a, 9);
-    const float r[3] = {d[0] - a * m[0], d[1] - a * m[1], d[2] - a * m[2]};
-    *residual = metric.determinant > 0 ? metric.product(r, r) / metric.determinant : 0.0f;
-  }
-  return a;
-}
-
-void solve_alpha(Patch& patch, const Moments& m, const Evidence& e, float spill,
-                 std::vector<float>* residual) {
-  for (std::size_t i = 0; i < patch.cells(); ++i) {
-    if (residual) (*residual)[i] = 0;
-    if (!patch.region.in[i] && !patch.seeds.in[i]) {
-      patch.alpha[i] = 0;
-      continue;
+    for (int y = 0; y < wh; ++y) {
+      const float* first = near.data() + static_cast<std::ptrdiff_t>(2 * y) * w;
+      const float* second = 2 * y + 1 < h ? first + w : nothing.data();
+      float* out = wide.data() + static_cast<std::ptrdiff_t>(y) * ww;
+      lanes().halve(first, second, w / 2, out);
+      if (w % 2) out[ww - 1] = 0.25f * (first[w - 1] + second[w - 1]);
     }
-    // The neighbourhood of the seeds themselves is asked for at the end only, by the despill.
-    if (patch.seeds.in[i] && residual) {
-      patch.alpha[i] = 1;
-      continue;
+    for (const float value : wide) all += static_cast<double>(value);
+    blur(wide, ww, wh, 2, 3, patch.scratch);
+    lanes().blur3(near.data(), w, h, patch.scratch.data(), near_all.data());
+    // near + far wide + whole.
+    std::vector<float>& mixed = patch.rows[k];
+    mixed.resize(static_cast<std::size_t>(2 * ww) + 2 * kRoom + static_cast<std::size_t>(4 * w));
+    const float whole = kGlobalWeight * static_cast<float>(all);
+    for (int y = 0; y < h; ++y) {
+      const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), wh - 1);
+      const float* a = wide.data() + static_cast<std::ptrdiff_t>(y / 2) * ww;
+      const float* b = wide.data() + static_cast<std::ptrdiff_t>(second) * ww;
+      float* row = mixed.data();
+      float* doubled = row + ww;
+      lanes().mix(a, 0.75f * kFarWeight, b, 0.25f * kFarWeight, static_cast<std::size_t>(ww), row);
+      lanes().double_row(row, ww, doubled);
+      const float* in = near_all.data() + static_cast<std::ptrdiff_t>(y) * w;
+      float* out = near.data() + static_cast<std::ptrdiff_t>(y) * w;
+      for (int x = 0; x < w; ++x) out[x] = in[x] + doubled[x] + whole;
     }
-    const Foreground f = foreground_at(patch, m, i, spill);
-    for (int p = 0; p < 3; ++p) patch.mean[p][i] = f.mean[p];
-    patch.alpha[i] = patch.seeds.in[i]
-                         ? 1.0f
-                         : project(patch, f, i, e.bound[i], residual ? &(*residual)[i] : nullptr);
+  }
+}
+
+// Alpha and mean of what is not sure; `final`: the means near the seeds too, for the despill.
+void solve_alpha(Patch& patch, float spill, bool final) {
+  const int w = (patch.width + 1) / 2;
+  const int h = (patch.height + 1) / 2;
+  const auto width = static_cast<std::size_t>(patch.width);
+  patch.mode.assign(width + 2 * kRoom, 0);
+  for (auto& row : patch.rows) row.resize(static_cast<std::size_t>(3 * w) + 4 * kRoom);
+  ProjectionRow row{};
+  row.mode = patch.mode.data();
+  for (int k = 0; k < kMoments; ++k) row.moment[k] = patch.rows[k].data() + w;
+  for (int y = 0; y < patch.height; ++y) {
+    const std::size_t at = static_cast<std::size_t>(y) * width;
+    const std::uint8_t* seeds = patch.seeds.row(y);
+    const std::uint8_t* region = patch.region.row(y);
+    float* alpha = patch.alpha.data() + at;
+    std::uint8_t most = 0;
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint8_t sure = final ? 1 : 0;
+      const std::uint8_t open = region[x] ? 2 : 0;
+      patch.mode[x] = seeds[x] ? sure : open;
+      alpha[x] = seeds[x] ? 1.0f : 0.0f;
+      most = std::max(most, patch.mode[x]);
+    }
+    if (!final) std::fill_n(patch.residual.begin() + static_cast<std::ptrdiff_t>(at), width, 0.0f);
+    if (most == 0) continue;
+    const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), h - 1);
+    for (int k = 0; k < kMoments; ++k) {
+      const float* a = patch.near[k].data() + static_cast<std::ptrdiff_t>(y / 2) * w;
+      const float* b = patch.near[k].data() + static_cast<std::ptrdiff_t>(second) * w;
+      lanes().mix(a, 0.75f, b, 0.25f, static_cast<std::size_t>(w), patch.rows[k].data());
+      lanes().double_row(patch.rows[k].data(), w, patch.rows[k].data() + w);
+    }
+    for (int p = 0; p < 3; ++p) {
+      row.frame[p] = patch.frame[p].data() + at;
+      row.plate[p] = patch.plate[p].data() + at;
+      row.noise[p] = patch.noise[p].data() + at;
+      row.mean[p] = patch.mean[p].data() + at;
+    }
+    row.bound = patch.bound.data() + at;
+    row.alpha = alpha;
+    row.residual = final ? nullptr : patch.residual.data() + at;
+    lanes().project(row, spill, patch.width);
   }
 }
 
 // What no mixture explains, with all its neighbours, is another part of the subject.
-bool add_unexplained(const std::vector<float>& residual, Mask& seeds) {
-  Mask odd(seeds.width, seeds.height);
-  for (std::size_t i = 0; i < odd.in.size(); ++i)
-    odd.in[i] = residual[i] > 12 || seeds.in[i] ? 1 : 0;
-  const Mask core = erode(odd, 2);
-  bool added = false;
-  for (std::size_t i = 0; i < core.in.size(); ++i)
-    if (core.in[i] && !seeds.in[i]) {
-      seeds.in[i] = 1;
-      added = true;
-    }
+bool add_unexplained(Patch& patch) {
+  Mask odd(patch.width, patch.height);
+  lanes().above(patch.residual.data(), 12, odd.in.size(), odd.in.data());
+  lanes().spread_into(patch.seeds.in.data(), odd.in.size(), true, odd.in.data());
+  Mask core = erode(odd, 2);
+  lanes().spread_into(patch.seeds.in.data(), core.in.size(), true, core.in.data());
+  const bool added = core.in != patch.seeds.in;
+  patch.seeds = std::move(core);
   return added;
 }
 
@@ -356,111 +270,81 @@ bool add_unexplained(const std::vector<float>& residual, Mask& seeds) {
 void grow_seeds(Patch& patch) {
   constexpr int kGrowth = 8;
   constexpr float kNearlyOpaque = 0.88f;
-  for (int step = 0; step < kGrowth; ++step) {
-    const Mask near = dilate(patch.seeds, 1);
-    bool grown = false;
-    for (std::size_t i = 0; i < near.in.size(); ++i) {
-      if (!near.in[i] || patch.seeds.in[i] || patch.alpha[i] <= kNearlyOpaque) continue;
-      patch.seeds.in[i] = 1;
-      patch.alpha[i] = 1;
-      grown = true;
-    }
-    if (!grown) return;
-  }
-}
-
-// The rim's own colours, unmixed with the first alpha, join the seeds' by how opaque they are.
-void weigh_rim(const Patch& patch, std::vector<float>& weight, std::vector<float> (&color)[3]) {
+  Mask opaque(patch.width, patch.height);
   const std::size_t n = patch.cells();
-  std::vector<float> soft = patch.alpha;
-  std::vector<float> scratch;
-  blur(soft, patch.width, patch.height, 1, 1, scratch);
-  for (std::size_t i = 0; i < n; ++i) {
-    const float rim = std::clamp((soft[i] - 0.6f) / 0.4f, 0.0f, 1.0f);
-    weight[i] = patch.seeds.in[i] ? 1.0f : rim;
-    for (int p = 0; p < 3; ++p) {
-      const float a = std::max(patch.alpha[i], 0.02f);
-      color[p][i] =
-          patch.seeds.in[i]
-              ? patch.frame[p][i]
-              : std::clamp(patch.plate[p][i] + (patch.frame[p][i] - patch.plate[p][i]) / a, 0.0f,
-                           1.0f);
-    }
+  lanes().above(patch.alpha.data(), kNearlyOpaque, n, opaque.in.data());
+  for (int step = 0; step < kGrowth; ++step) {
+    Mask near = dilate(patch.seeds, 1);
+    lanes().spread_into(opaque.in.data(), n, false, near.in.data());
+    lanes().spread_into(patch.seeds.in.data(), n, true, near.in.data());
+    const bool grown = near.in != patch.seeds.in;
+    patch.seeds = std::move(near);
+    if (!grown) break;
   }
+  for (std::size_t i = 0; i < n; ++i) patch.alpha[i] = patch.seeds.in[i] ? 1.0f : patch.alpha[i];
 }
 
 }  // namespace
 
 void cut_patch(const ScreenModel& screen, const Silhouette& s, Patch& patch) {
-  patch.left = std::max(s.left - kMargin, 0);
-  patch.top = std::max(s.top - kMargin, 0);
-  patch.width = std::min(s.right + kMargin, s.grid.width) - patch.left;
-  patch.height = std::min(s.bottom + kMargin, s.grid.height) - patch.top;
+  const Window& window = s.window;
+  patch.left = std::max(s.box.left - kMargin, window.left);
+  patch.top = std::max(s.box.top - kMargin, window.top);
+  patch.width =
+      std::min(s.box.left + s.box.width + kMargin, window.left + window.width) - patch.left;
+  patch.height =
+      std::min(s.box.top + s.box.height + kMargin, window.top + window.height) - patch.top;
   patch.core = Mask(patch.width, patch.height);
   const std::size_t n = patch.cells();
   patch.contrast.resize(n);
-  for (int p = 0; p < 3; ++p) {
-    patch.frame[p].resize(n);
-    patch.plate[p].resize(n);
-    patch.noise[p].resize(n);
-    patch.mean[p].assign(n, 0);
-  }
-  patch.alpha.assign(n, 0);
-  const auto& light = linear_of_sums();
-  const float codes = std::max(2 * screen.noise[0], 1.0f);
-  for (int y = 0; y < patch.height; ++y)
-    for (int x = 0; x < patch.width; ++x) {
-      const int gx = patch.left + x;
-      const int gy = patch.top + y;
-      const std::size_t from =
-          static_cast<std::size_t>(gy) * static_cast<std::size_t>(s.grid.width) +
-          static_cast<std::size_t>(gx);
-      const std::size_t to = static_cast<std::size_t>(y) * static_cast<std::size_t>(patch.width) +
-                             static_cast<std::size_t>(x);
-      const double u = scaled(gx, s.grid.width);
-      const double v = scaled(gy, s.grid.height);
-      patch.core.in[to] = s.mask.in[from];
-      patch.contrast[to] = s.contrast[from];
-      for (int p = 0; p < 3; ++p) {
-        const int plane = 2 - p;  // B G R to R G B
-        const int sum = s.grid.plane[plane][from];
-        const float plate = std::clamp(
-            4 * (screen.cells[plane][from] + static_cast<float>(s.drift.at(plane, u, v))), 0.0f,
-            1020.0f);
-        const std::size_t low = std::min(static_cast<std::size_t>(plate), std::size_t{1019});
-        patch.frame[p][to] = light[static_cast<std::size_t>(sum)];
-        patch.plate[p][to] =
-            light[low] + (light[low + 1] - light[low]) * (plate - static_cast<float>(low));
-        const int above = std::min(sum + 4, 1020);
-        const int below = std::max(sum - 4, 0);
-        const float slope =
-            4 * (light[static_cast<std::size_t>(above)] - light[static_cast<std::size_t>(below)]) /
-            static_cast<float>(above - below);
-        patch.noise[p][to] = codes * slope;
-      }
+  for (int p = 0; p < 3; ++p)
+    for (auto* plane : {&patch.frame[p], &patch.plate[p], &patch.noise[p], &patch.mean[p]})
+      plane->resize(n + kRoom);
+  patch.alpha.assign(n + kRoom, 0);
+  const std::vector<float> noise = noise_of_sums(std::max(2 * screen.noise[0], 1.0f));
+  const auto width = static_cast<std::size_t>(patch.width);
+  for (int y = 0; y < patch.height; ++y) {
+    const std::size_t from = static_cast<std::size_t>(patch.top - window.top + y) *
+                                 static_cast<std::size_t>(window.width) +
+                             static_cast<std::size_t>(patch.left - window.left);
+    const std::size_t to = static_cast<std::size_t>(y) * width;
+    std::copy_n(s.mask.in.data() + from, width, patch.core.row(y));
+    std::copy_n(s.contrast.data() + from, width, patch.contrast.data() + to);
+    for (int p = 0; p < 3; ++p) {
+      std::copy_n(s.frame[p].data() + from, width, patch.frame[p].data() + to);
+      std::copy_n(s.plate[p].data() + from, width, patch.plate[p].data() + to);
+      lanes().look_up(noise.data(), s.grid.plane[p].data() + from, patch.width,
+                      patch.noise[p].data() + to);
     }
+  }
   patch.region = dilate(patch.core, 2);
 }
 
 void unmix(const ScreenModel& screen, Patch& patch) {
-  const Evidence evidence = gather_evidence(screen, patch);
-  find_seeds(screen, patch, evidence, patch.seeds);
+  gather_evidence(screen, patch);
+  find_seeds(screen, patch);
   const std::size_t n = patch.cells();
-  std::vector<float> weight(n);
-  std::vector<float> color[3];
-  for (int p = 0; p < 3; ++p) color[p] = patch.frame[p];
-  std::vector<float> residual(n);
-  Moments moments;
+  patch.weight.resize(n + kRoom);
+  patch.residual.resize(n + kRoom);
+  for (auto& plane : patch.color) plane.resize(n + kRoom);
   for (int round = 0; round < 2; ++round) {
-    for (std::size_t i = 0; i < n; ++i) weight[i] = patch.seeds.in[i] ? 1.0f : 0.0f;
-    gather_moments(patch, weight, color, moments);
-    solve_alpha(patch, moments, evidence, kSpill, &residual);
-    if (round > 0 || !add_unexplained(residual, patch.seeds)) break;
+    for (std::size_t i = 0; i < n; ++i) patch.weight[i] = static_cast<float>(patch.seeds.in[i]);
+    gather_moments(patch, patch.weight, patch.frame);
+    solve_alpha(patch, kSpill, false);
+    if (round > 0 || !add_unexplained(patch)) break;
   }
   if (screen.key >= 0) grow_seeds(patch);
-  weigh_rim(patch, weight, color);
-  gather_moments(patch, weight, color, moments);
-  solve_alpha(patch, moments, evidence, kRimSpill, nullptr);
+  const ConstPointers frame(patch.frame);
+  const ConstPointers plate(patch.plate);
+  const Pointers color(patch.color);
+  patch.soft.resize(n);
+  patch.scratch.resize(n);
+  lanes().blur3(patch.alpha.data(), patch.width, patch.height, patch.scratch.data(),
+                patch.soft.data());
+  lanes().weigh_rim(patch.seeds.in.data(), patch.soft.data(), patch.alpha.data(), frame.at,
+                    plate.at, n, patch.weight.data(), color.at);
+  gather_moments(patch, patch.weight, patch.color);
+  solve_alpha(patch, kRimSpill, true);
 }
 
 }  // namespace vsprite::detail

@@ -17,9 +17,10 @@
 
 namespace vsprite::detail {
 
-/// The part of a frame that holds the subject. All maps are (height, width) cells.
+/// The part of a frame that holds the subject. All maps are (height, width) cells, with room for a
+/// block of lanes behind the last.
 struct Patch {
-  int left = 0, top = 0, width = 0, height = 0;  ///< cells, place in the grid
+  int left = 0, top = 0, width = 0, height = 0;  ///< cells, place on the film's grid
   Mask core;                                     ///< the silhouette
   Mask region;                                   ///< where alpha may be above 0: two cells more
   std::vector<float> contrast;                   ///< code values, as in Silhouette
@@ -28,6 +29,11 @@ struct Patch {
   Mask seeds;                                    ///< surely subject
   std::vector<float> alpha;                      ///< the result
   std::vector<float> mean[3];                    ///< mu: the foreground nearby
+
+  // Working room: evidence, weights, moments at half and at an eighth of the film's resolution.
+  std::vector<float> key, bound, residual, weight, color[3], scratch, soft;
+  std::vector<float> near[kMoments], wide[kMoments], rows[kMoments];
+  std::vector<std::uint8_t> mode;
 
   std::size_t cells() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -1,0 +1,478 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// keyer_bench [speed|truth|chosen|unseen]... - this keyer beside what is free, in one run:
+//
+//   speed    frames/s at 1080p on one core, the rivals' reading and writing of frames taken off
+//   truth    the bundled film against its exact matte
+//   chosen   the bundled film's fish before 14 screens: the films that constants were chosen with
+//   unseen   a ball of fur with a veil before the same screens: no constant was chosen with them
+//
+// ffmpeg's filters are given the screen's true colour and the best of their settings is reported,
+// for each film; this keyer and closed-form matting (seeds from this keyer's alpha, widened) are
+// given nothing. Errors are taken within 10 px of the true edge: mean |e|, root of mean e^2, mean
+// |grad e|, and flicker, the mean change of e from one frame to the next; all in percent.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "capture/goldfish.h"
+#include "film/color.h"
+#include "film/matte.h"
+#include "support/closed_form.h"
+#include "support/composites.h"
+#include "support/temp_folder.h"
+
+using namespace vsprite;
+using testing::CutOut;
+
+namespace {
+
+constexpr int kBand = 10;
+
+double seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Case {
+  std::string name;
+  std::vector<Frame> frames, samples;
+  std::vector<std::vector<float>> truth;
+  std::vector<std::vector<char>> band;
+  double color[3] = {};
+};
+
+std::vector<char> band_of(const std::vector<float>& alpha, int w, int h) {
+  std::vector<char> rows(alpha.size()), both(alpha.size());
+  const auto at = [w](int x, int y) { return static_cast<std::size_t>(y * w + x); };
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x)
+      if (const float a = alpha[at(x, y)]; a > 0.02f && a < 0.98f)
+        for (int u = std::max(x - kBand, 0); u <= std::min(x + kBand, w - 1); ++u)
+          rows[at(u, y)] = 1;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x)
+      if (rows[at(x, y)])
+        for (int v = std::max(y - kBand, 0); v <= std::min(y + kBand, h - 1); ++v)
+          both[at(x, v)] = 1;
+  return both;
+}
+
+struct Errors {
+  double mean = 0, square = 0, gradient = 0, flicker = 0, rest = 0;
+};
+
+using Mattes = std::vector<std::vector<float>>;
+
+Errors measure(const Case& c, const Mattes& mattes) {
+  Errors e;
+  double band = 0, rest = 0, steady = 0;
+  std::vector<float> before;
+  for (std::size_t f = 0; f < mattes.size(); ++f) {
+    const int w = c.frames[f].width;
+    const int h = c.frames[f].height;
+    std::vector<float> error(mattes[f].size());
+    for (std::size_t i = 0; i < error.size(); ++i) error[i] = mattes[f][i] - c.truth[f][i];
+    for (int y = 0; y + 1 < h; ++y)
+      for (int x = 0; x + 1 < w; ++x) {
+        const auto i = static_cast<std::size_t>(y * w + x);
+        const double d = static_cast<double>(error[i]);
+        if (!c.band[f][i]) {
+          e.rest += std::abs(d);
+          rest += 1;
+          continue;
+        }
+        e.mean += std::abs(d);
+        e.square += d * d;
+        e.gradient += std::hypot(static_cast<double>(error[i + 1]) - d,
+                                 static_cast<double>(error[i + static_cast<std::size_t>(w)]) - d);
+        band += 1;
+        if (f == 0) continue;
+        e.flicker += std::abs(d - static_cast<double>(before[i]));
+        steady += 1;
+      }
+    before = std::move(error);
+  }
+  return {100 * e.mean / band, 100 * std::sqrt(e.square / band), 100 * e.gradient / band,
+          100 * e.flicker / std::max(steady, 1.0), 100 * e.rest / std::max(rest, 1.0)};
+}
+
+Mattes key_ours(const Case& c) {
+  const auto screen = measure_screen(c.samples, {});
+  Mattes mattes;
+  for (const Frame& frame : c.frames) {
+    std::vector<float> alpha(frame.y.size());
+    if (screen) {
+      Keyer keyer(*screen, {});
+      const KeyedFrame keyed = keyer.key(frame, nullptr);
+      for (int y = 0; y < keyed.crop.height; ++y)
+        for (int x = 0; x < keyed.crop.width; ++x)
+          alpha[static_cast<std::size_t>((keyed.crop.y + y) * frame.width + keyed.crop.x + x)] =
+              static_cast<float>(
+                  keyed.straight
+                      .rgba[static_cast<std::size_t>(4 * (y * keyed.crop.width + x) + 3)]) /
+              255;
+    }
+    mattes.push_back(std::move(alpha));
+  }
+  return mattes;
+}
+
+void write_raw(const std::vector<Frame>& frames, const std::string& path, int repeats = 1) {
+  std::ofstream out(path, std::ios::binary);
+  for (int r = 0; r < repeats; ++r)
+    for (const Frame& f : frames)
+      for (const auto* plane : {&f.y, &f.cb, &f.cr})
+        out.write(reinterpret_cast<const char*>(plane->data()),
+                  static_cast<std::streamsize>(plane->size()));
+}
+
+std::string ffmpeg_of(const Frame& frame, const std::string& raw, const std::string& filter,
+                      const std::string& rest) {
+  return "ffmpeg -v error -nostdin -y -threads 1 -filter_threads 1 -f rawvideo -pix_fmt yuv420p "
+         "-s " +
+         std::to_string(frame.width) + "x" + std::to_string(frame.height) + " -i '" + raw + "'" +
+         (filter.empty() ? "" : " -vf '" + filter + "'") + " " + rest + " 2>/dev/null";
+}
+
+std::string hex_of(const double (&color)[3]) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%02X%02X%02X", static_cast<unsigned>(color[0] + 0.5),
+                static_cast<unsigned>(color[1] + 0.5), static_cast<unsigned>(color[2] + 0.5));
+  return text;
+}
+
+// The best, by mean error, of a grid of settings.
+Errors key_ffmpeg(const Case& c, const std::string& filter, const testing::TempFolder& folder) {
+  const std::string raw = folder.file("in.raw");
+  const std::string gray = folder.file("out.gray");
+  write_raw(c.frames, raw);
+  Errors best;
+  best.mean = 1e9;
+  for (const char* similarity : {"0.03", "0.06", "0.1", "0.15", "0.22", "0.3"})
+    for (const char* blend : {"0", "0.08", "0.2"}) {
+      const std::string key = filter + "=" + hex_of(c.color) + ":" + similarity + ":" + blend;
+      const std::string command = ffmpeg_of(c.frames[0], raw, key + ",alphaextract,format=gray",
+                                            "-f rawvideo '" + gray + "'");
+      if (std::system(command.c_str()) != 0) continue;
+      std::ifstream in(gray, std::ios::binary);
+      Mattes mattes;
+      std::vector<char> bytes(c.frames[0].y.size());
+      while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
+        std::vector<float> alpha(bytes.size());
+        for (std::size_t i = 0; i < bytes.size(); ++i)
+          alpha[i] = static_cast<float>(static_cast<std::uint8_t>(bytes[i])) / 255;
+        mattes.push_back(std::move(alpha));
+      }
+      if (mattes.size() != c.frames.size()) continue;
+      const Errors e = measure(c, mattes);
+      if (e.mean < best.mean) best = e;
+    }
+  return best;
+}
+
+// OpenCV's usual recipe, inRange in HSV: hue within `reach` of the screen's, enough saturation and
+// value; a hard mask.
+Errors key_hsv(const Case& c) {
+  const auto hsv = [](double r, double g, double b, double& hue, double& s, double& v) {
+    v = std::max({r, g, b});
+    const double d = v - std::min({r, g, b});
+    s = v > 0 ? 255 * d / v : 0;
+    hue = 0;
+    if (d > 0)
+      hue = v == r ? 30 * (g - b) / d : v == g ? 60 + 30 * (b - r) / d : 120 + 30 * (r - g) / d;
+    if (hue < 0) hue += 180;
+  };
+  double screen_hue = 0, screen_s = 0, screen_v = 0;
+  hsv(c.color[0], c.color[1], c.color[2], screen_hue, screen_s, screen_v);
+  Errors best;
+  best.mean = 1e9;
+  for (const double reach : {6.0, 10.0, 15.0, 25.0})
+    for (const double least : {0.3, 0.5, 0.7}) {
+      Mattes mattes;
+      for (const Frame& frame : c.frames) {
+        const Image image = to_image(frame);
+        std::vector<float> alpha(frame.y.size());
+        for (std::size_t i = 0; i < alpha.size(); ++i) {
+          double hue = 0, s = 0, v = 0;
+          hsv(image.rgba[4 * i], image.rgba[4 * i + 1], image.rgba[4 * i + 2], hue, s, v);
+          double off = std::abs(hue - screen_hue);
+          off = std::min(off, 180 - off);
+          alpha[i] = off <= reach && s >= least * screen_s && v >= least * screen_v ? 0.0f : 1.0f;
+        }
+        mattes.push_back(std::move(alpha));
+      }
+      const Errors e = measure(c, mattes);
+      if (e.mean < best.mean) best = e;
+    }
+  return best;
+}
+
+// Closed form on the chroma grid, doubled; the unknown is where our alpha is soft, two cells wider.
+Errors key_closed_form(const Case& c, const Mattes& ours, std::size_t every) {
+  Case few;
+  Mattes mattes;
+  for (std::size_t f = 0; f < c.frames.size(); f += every) {
+    const Frame& frame = c.frames[f];
+    const int w = frame.width / 2;
+    const int h = frame.height / 2;
+    const Image image = to_image(frame);
+    std::vector<float> rgb(static_cast<std::size_t>(3 * w * h)), mean(rgb.size() / 3);
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x)
+        for (int k = 0; k < 4; ++k) {
+          const auto i = static_cast<std::size_t>((2 * y + k / 2) * frame.width + 2 * x + k % 2);
+          const auto o = static_cast<std::size_t>(y * w + x);
+          mean[o] += 0.25f * ours[f][i];
+          for (std::size_t p = 0; p < 3; ++p)
+            rgb[3 * o + p] +=
+                static_cast<float>(0.25 * testing::SyntheticFilm::linear(image.rgba[4 * i + p]));
+        }
+    std::vector<float> known(mean.size());
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        float low = 1, high = 0;
+        for (int v = std::max(y - 2, 0); v <= std::min(y + 2, h - 1); ++v)
+          for (int u = std::max(x - 2, 0); u <= std::min(x + 2, w - 1); ++u) {
+            low = std::min(low, mean[static_cast<std::size_t>(v * w + u)]);
+            high = std::max(high, mean[static_cast<std::size_t>(v * w + u)]);
+          }
+        known[static_cast<std::size_t>(y * w + x)] = low >= 1 ? 1.0f : high <= 0 ? 0.0f : -1.0f;
+      }
+    const auto small = testing::closed_form_matte(rgb, known, w, h);
+    std::vector<float> alpha(frame.y.size());
+    for (int y = 0; y < frame.height; ++y)
+      for (int x = 0; x < frame.width; ++x) {
+        const double u = std::clamp(0.5 * x - 0.25, 0.0, w - 1.001);
+        const double v = std::clamp(0.5 * y - 0.25, 0.0, h - 1.001);
+        const auto i = static_cast<std::size_t>(static_cast<int>(v) * w + static_cast<int>(u));
+        const double fu = u - std::floor(u), fv = v - std::floor(v);
+        const auto s = [&](std::size_t k) { return static_cast<double>(small[k]); };
+        alpha[static_cast<std::size_t>(y * frame.width + x)] =
+            static_cast<float>((1 - fv) * ((1 - fu) * s(i) + fu * s(i + 1)) +
+                               fv * ((1 - fu) * s(i + static_cast<std::size_t>(w)) +
+                                     fu * s(i + static_cast<std::size_t>(w) + 1)));
+      }
+    mattes.push_back(std::move(alpha));
+    few.frames.push_back(frame);
+    few.truth.push_back(c.truth[f]);
+    few.band.push_back(c.band[f]);
+  }
+  return measure(few, mattes);
+}
+
+void print(const char* name, const Errors& e) {
+  std::printf("    %-22s %6.2f %6.2f %6.2f %6.2f   rest %.3f\n", name, e.mean, e.square, e.gradient,
+              e.flicker, e.rest);
+}
+
+void compare(const Case& c, const testing::TempFolder& folder, std::size_t closed_form_every,
+             int& won, int& all) {
+  std::printf("  %s\n", c.name.c_str());
+  const Mattes mattes = key_ours(c);
+  const Errors ours = measure(c, mattes);
+  const Errors chroma = key_ffmpeg(c, "chromakey", folder);
+  const Errors color = key_ffmpeg(c, "colorkey", folder);
+  const Errors hsv = key_hsv(c);
+  print("this keyer", ours);
+  print("ffmpeg chromakey", chroma);
+  print("ffmpeg colorkey", color);
+  print("inRange in HSV", hsv);
+  bool best = true;
+  const auto against = [&](const Errors& e) {
+    best = best && ours.mean <= e.mean && ours.square <= e.square && ours.gradient <= e.gradient &&
+           ours.flicker <= e.flicker;
+  };
+  for (const Errors* e : {&chroma, &color, &hsv}) against(*e);
+  if (closed_form_every > 0) {
+    Errors closed = key_closed_form(c, mattes, closed_form_every);
+    print("closed form, our seeds", closed);
+    if (closed_form_every > 1) closed.flicker = 1e9;  // its frames are not neighbours
+    against(closed);
+  }
+  std::fflush(stdout);
+  won += best;
+  ++all;
+}
+
+Case truth_case(int first_run, int runs, int length) {
+  const std::string path = VSPRITE_SOURCE_DIR "/assets/goldfish.mp4";
+  const capture::GoldfishFilm film;
+  Case c;
+  c.name = "the bundled film";
+  if (auto samples = sample_frames(path, 50)) c.samples = std::move(*samples);
+  auto reader = FilmReader::open(path);
+  if (!reader) return c;
+  capture::TruthFrame t;
+  Frame frame;
+  while (*reader->read(frame)) {
+    const int run = frame.index / 160;
+    const auto bounds = film.bounds(frame.index);
+    if (frame.index % 160 >= length || run % 5 != first_run || run / 5 >= runs) continue;
+    if (!bounds.visible || bounds.touches_border) continue;
+    film.render(frame.index, t);
+    c.truth.push_back(t.alpha);
+    c.band.push_back(band_of(t.alpha, t.width, t.height));
+    c.frames.push_back(frame);
+  }
+  c.color[0] = 68, c.color[1] = 104, c.color[2] = 158;
+  double mean[3] = {};
+  for (std::size_t i = 0; i < t.plate.size(); ++i)
+    mean[i % 3] += static_cast<double>(t.plate[i]) / static_cast<double>(t.plate.size() / 3);
+  for (int p = 0; p < 3; ++p) c.color[p] = testing::SyntheticFilm::code(mean[p]);
+  return c;
+}
+
+Case composite_case(const testing::Condition& condition, const std::vector<CutOut>& cuts,
+                    const testing::TempFolder& folder) {
+  Case c;
+  c.name = condition.name;
+  for (int p = 0; p < 3; ++p) c.color[p] = condition.screen[p];
+  std::vector<Frame> filmed;
+  for (std::size_t f = 0; f < cuts.size(); ++f)
+    filmed.push_back(to_frame(testing::composite(cuts[f], condition, static_cast<int>(f))));
+  const std::string path = folder.file("film.mp4");
+  if (!testing::encode_film(
+          filmed, path,
+          "-threads 1 -c:v libx264 -preset veryfast -crf " + std::to_string(condition.crf)))
+    return c;
+  auto reader = FilmReader::open(path);
+  Frame frame;
+  while (reader && *reader->read(frame)) {
+    c.samples.push_back(frame);
+    // Six runs of four neighbours.
+    if (frame.index % 10 >= 4) continue;
+    const CutOut& cut = cuts[static_cast<std::size_t>(frame.index)];
+    c.frames.push_back(frame);
+    c.truth.push_back(cut.alpha);
+    c.band.push_back(band_of(cut.alpha, cut.width, cut.height));
+  }
+  return c;
+}
+
+std::vector<CutOut> fish_cuts(int count) {
+  const capture::GoldfishFilm film;
+  std::vector<CutOut> cuts;
+  capture::TruthFrame t;
+  for (int k = 0; static_cast<int>(cuts.size()) < count; ++k) {
+    const int frame = 300 + 2 * k;
+    const auto bounds = film.bounds(frame);
+    if (!bounds.visible || bounds.touches_border) continue;
+    film.render(frame, t);
+    cuts.push_back({t.width, t.height, t.alpha, t.foreground});
+  }
+  return cuts;
+}
+
+std::vector<CutOut> fur_cuts(int count) {
+  std::vector<CutOut> cuts;
+  for (int k = 0; k < count; ++k) cuts.push_back(testing::furry_ball(k, 640, 480));
+  return cuts;
+}
+
+void run_pool(const char* title, const std::vector<CutOut>& cuts,
+              const testing::TempFolder& folder) {
+  std::printf("%s: mean |e|, root mean square, gradient, flicker (percent, within %d px)\n", title,
+              kBand);
+  int won = 0, all = 0;
+  for (const testing::Condition& condition : testing::conditions())
+    compare(composite_case(condition, cuts, folder), folder, 12, won, all);
+  std::printf("  lowest of all four errors on %d of %d\n", won, all);
+}
+
+// Planes stretched to 1080p, nearest.
+Frame stretched(const Frame& in, int w, int h) {
+  Frame out;
+  out.resize(w, h);
+  out.coding = in.coding;
+  const auto plane = [](const std::vector<std::uint8_t>& from, int fw, int fh,
+                        std::vector<std::uint8_t>& to, int tw, int th) {
+    for (int y = 0; y < th; ++y)
+      for (int x = 0; x < tw; ++x)
+        to[static_cast<std::size_t>(y * tw + x)] =
+            from[static_cast<std::size_t>(y * fh / th * fw + x * fw / tw)];
+  };
+  plane(in.y, in.width, in.height, out.y, w, h);
+  plane(in.cb, in.cell_width(), in.cell_height(), out.cb, out.cell_width(), out.cell_height());
+  plane(in.cr, in.cell_width(), in.cell_height(), out.cr, out.cell_width(), out.cell_height());
+  return out;
+}
+
+struct Times {
+  double least = 1e9, middle = 0;
+};
+template <class Body>
+Times repeat(int times, Body body) {
+  std::vector<double> all;
+  for (int k = 0; k < times; ++k) {
+    const double start = seconds();
+    body();
+    all.push_back(seconds() - start);
+  }
+  std::sort(all.begin(), all.end());
+  return {all.front(), all[all.size() / 2]};
+}
+
+void run_speed(const testing::TempFolder& folder) {
+  const Case film = truth_case(1, 3, 8);
+  std::vector<Frame> frames, samples;
+  for (std::size_t f = 0; f < film.frames.size(); f += 2)
+    frames.push_back(stretched(film.frames[f], 1920, 1080));
+  for (std::size_t f = 0; f < film.samples.size(); f += 3)
+    samples.push_back(stretched(film.samples[f], 1920, 1080));
+  const auto start = seconds();
+  const auto screen = measure_screen(samples, {});
+  if (!screen) return;
+  std::printf("speed, 1080p, one thread, %zu frames (screen measured on %zu in %.2f s)\n",
+              frames.size(), samples.size(), seconds() - start);
+  Keyer keyer(*screen, {});
+  std::uint64_t area = 0;
+  const Times ours = repeat(9, [&] {
+    for (const Frame& frame : frames) area += keyer.key(frame, nullptr).labels.size();
+  });
+  const double count = static_cast<double>(frames.size());
+  std::printf("    %-28s %7.1f frames/s (median %.1f)\n", "this keyer", count / ours.least,
+              count / ours.middle);
+  const std::string raw = folder.file("speed.raw");
+  write_raw(frames, raw);
+  const auto time = [&](const std::string& filter) {
+    const std::string command = ffmpeg_of(frames[0], raw, filter, "-f null -");
+    return repeat(3, [&] {
+      if (std::system(command.c_str()) != 0) std::printf("ffmpeg failed\n");
+    });
+  };
+  const Times null = time("");
+  const std::string color = hex_of(film.color);
+  for (const std::string& filter :
+       {std::string("chromakey=") + color + ":0.1:0.08,format=rgba,despill=type=blue",
+        std::string("format=rgba,colorkey=") + color + ":0.2:0.08,despill=type=blue"}) {
+    const Times t = time(filter);
+    const double rate = count / std::max(t.least - null.least, 1e-3);
+    std::printf("    %-28s %7.1f frames/s: ours is %.1fx\n", filter.substr(0, 26).c_str(), rate,
+                count / ours.least / rate);
+  }
+  if (area == 0) std::printf("nothing was keyed\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::set<std::string> parts(argv + 1, argv + argc);
+  if (parts.empty()) parts = {"speed", "truth", "chosen", "unseen"};
+  const testing::TempFolder folder;
+  if (parts.count("speed")) run_speed(folder);
+  if (parts.count("truth")) {
+    std::printf("mean |e|, root mean square, gradient, flicker (percent, within %d px)\n", kBand);
+    int won = 0, all = 0;
+    compare(truth_case(0, 6, 4), folder, 3, won, all);
+  }
+  if (parts.count("chosen")) run_pool("chosen with: the fish", fish_cuts(60), folder);
+  if (parts.count("unseen")) run_pool("never seen: fur and a veil", fur_cuts(60), folder);
+  return 0;
+}
