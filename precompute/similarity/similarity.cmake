@@ -8,6 +8,7 @@ target_sources(vsprite_precompute PRIVATE
   similarity/classifier.cpp
   similarity/distance.cpp
   similarity/transitions.cpp
+  similarity/joins.cpp
 )
 # Highway: the kernels of all pairs, one copy for each instruction set.
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)

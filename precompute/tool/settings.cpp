@@ -186,6 +186,9 @@ void add_stage_options(Row& t) {
           kSegment);
   t.whole("pairs", "N", &Settings::pairs, 50, 1000000, "labelled pairs taken from the film",
           kTrain);
+  t.text("features", "SCALE", &Settings::features,
+         "how samples differ: as in the paper, or free of scale (film with near and far)", kTrain,
+         "raw|per-area");
   t.whole("folds", "N", &Settings::folds, 2, 20, "parts for held-out testing", kTrain);
   t.real("false-accept-cost", "X", &Settings::false_accept_cost, 1, 1000, false,
          "price of a visible jump, in rejected good ones", kTrain);
@@ -193,6 +196,10 @@ void add_stage_options(Row& t) {
           "cheapest transitions kept out of a sample", kTransitions);
   t.whole("min-back", "SAMPLES", &Settings::min_back, 1, 1000,
           "shortest jump backwards inside a clip, samples", kTransitions);
+  t.text("minima", "on|off", &Settings::minima,
+         "of a run of near-identical jumps keep the cheapest only", kTransitions, "on|off");
+  t.real("near-miss", "D", &Settings::near_miss, 0, 10, false,
+         "also take pairs this far beyond the threshold, at three times their price", kTransitions);
   t.real("alpha", "A", &Settings::alpha, 0, 1, true, "discount of the future, per sample", kSolve);
   t.real("w1", "W", &Settings::w1, 0, 1000, false, "price of a radian off the command", kSolve);
   t.real("cap", "T", &Settings::cap, 0.001, 1000, false,

@@ -16,6 +16,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/report.cpp
   tool/segment.cpp
   tool/settings.cpp
+  tool/tiles.cpp
   tool/stages.cpp
   tool/work_files.cpp
 )
