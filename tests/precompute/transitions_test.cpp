@@ -122,7 +122,8 @@ FeatureSet make_cast() {
       r.velocity_x = kClips[c].speed, r.area = 3 * kClips[c].reach * kClips[c].reach;
       rows.push_back(r);
       Image image{32, 32, std::vector<std::uint8_t>(4 * 32 * 32, 0)};
-      const double swing = std::sin(2 * kPi * k / (kClips[c].frames - (c < 3 ? 0 : 18)));
+      const double swing =
+          std::sin(2 * kPi * k / (kClips[c].frames - (c < 3 ? 0 : 18))) / (c == 0 ? 3 : 1);
       for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) {
           const double u = (x - 15.5) / kClips[c].reach, v = (y - 15.5 - 3 * swing) / (5 + c);
