@@ -10,6 +10,7 @@ target_sources(vsprite_precompute PRIVATE
   similarity/held_out.cpp
   similarity/distance.cpp
   similarity/transitions.cpp
+  similarity/joins.cpp
 )
 # Highway: the kernels of all pairs, one copy for each instruction set.
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)

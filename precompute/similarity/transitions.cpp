@@ -41,13 +41,15 @@ CostTable symmetric_rows(std::size_t n, std::span<const PairDistance> pairs) {
 
 // T_ij = (D_i,j-1 + D_i+1,j) / 2 for every j whose two pairs are accepted: row i of D, moved one
 // sample on, merged with row i+1.
-CostTable make_transitions(const FeatureSet& set, const CostTable& d, int min_back) {
+CostTable make_transitions(const FeatureSet& set, const CostTable& d,
+                           const TransitionConfig& config) {
   const std::size_t n = sample_count(d);
   CostTable graph;
   graph.row_start.assign(1, 0);
   for (std::size_t s = 0; s < n; ++s) {
     const int i = static_cast<int>(s);
     if (follows(set, i, i + 1)) {
+      const int min_back = shortest_jump_back(set, i, config.min_back);
       const auto before = row_of(d, s), after = row_of(d, s + 1);
       auto b = after.begin();
       for (const Transition& a : before) {
@@ -57,12 +59,53 @@ CostTable make_transitions(const FeatureSet& set, const CostTable& d, int min_ba
         const int j = static_cast<int>(to), back = i - j;
         if (b->to != to || !follows(set, j - 1, j)) continue;
         if (back >= 0 && back < min_back && set.rows[s].clip == set.rows[to].clip) continue;
-        graph.transitions.push_back({to, j == i + 1 ? 0.0f : (a.cost + b->cost) / 2});
+        const float worse = std::max(a.cost, b->cost);
+        const float cost = worse > 1 ? config.near_miss_price * worse : (a.cost + b->cost) / 2;
+        graph.transitions.push_back({to, j == i + 1 ? 0.0f : cost});
       }
     }
     graph.row_start.push_back(static_cast<std::uint32_t>(graph.transitions.size()));
   }
   return graph;
+}
+
+// The transitions of accepted pairs: a near miss costs more than 1, they do not.
+CostTable accepted_part(const CostTable& graph) {
+  CostTable part;
+  part.row_start.assign(1, 0);
+  for (std::size_t i = 0; i < sample_count(graph); ++i) {
+    for (const Transition& t : row_of(graph, i)) {
+      if (t.cost <= 1) part.transitions.push_back(t);
+    }
+    part.row_start.push_back(static_cast<std::uint32_t>(part.transitions.size()));
+  }
+  return part;
+}
+
+// The graph with joins in it; a join in the place of a dearer transition takes it.
+CostTable with_joins(const CostTable& graph, std::span<const TagJoin> joins) {
+  CostTable result;
+  result.row_start.assign(1, 0);
+  auto join = joins.begin();
+  for (std::size_t i = 0; i < sample_count(graph); ++i) {
+    const auto row = row_of(graph, i);
+    auto t = row.begin();
+    while (t != row.end() || (join != joins.end() && join->from == i)) {
+      const bool join_next =
+          join != joins.end() && join->from == i && (t == row.end() || join->to <= t->to);
+      if (!join_next) {
+        result.transitions.push_back(*t++);
+        continue;
+      }
+      result.transitions.push_back({join->to, join->cost});
+      if (t != row.end() && t->to == join->to) {
+        result.transitions.back().cost = std::min(join->cost, t->cost), ++t;
+      }
+      ++join;
+    }
+    result.row_start.push_back(static_cast<std::uint32_t>(result.transitions.size()));
+  }
+  return result;
 }
 
 CostTable reversed(const CostTable& graph) {
@@ -82,8 +125,9 @@ CostTable reversed(const CostTable& graph) {
   return back;
 }
 
-// The largest part with an edge inside; ties: the one with the lowest sample number. Empty if none.
-std::vector<std::uint8_t> largest_part(const CostTable& graph) {
+// The largest part with an edge inside; ties: the one with the lowest sample number; of a cast the
+// part that holds its tags. Empty if none.
+std::vector<std::uint8_t> largest_part(const CostTable& graph, int tagged) {
   const Components parts = find_components(graph);
   std::vector<std::uint32_t> size(parts.count, 0);
   std::vector<std::uint8_t> has_edge(parts.count, 0);
@@ -97,6 +141,10 @@ std::vector<std::uint8_t> largest_part(const CostTable& graph) {
   for (std::size_t i = 0; i < parts.of.size(); ++i) {
     const std::uint32_t part = parts.of[i];
     if (has_edge[part] && (best == kUnseen || size[part] > size[best])) best = part;
+  }
+  if (tagged >= 0) {
+    const std::uint32_t part = parts.of[static_cast<std::size_t>(tagged)];
+    best = has_edge[part] ? part : kUnseen;
   }
   std::vector<std::uint8_t> kept(parts.of.size(), 0);
   if (best == kUnseen) return {};
@@ -153,14 +201,36 @@ std::vector<Edge> missing_edges(const CostTable& capped, const CostTable& full,
   return missing;
 }
 
+// True where neither neighbour on the diagonal is cheaper: (i - 1, j - 1) and (i + 1, j + 1) are
+// the same jump a frame sooner and later. Ties: the first.
+bool is_minimum(const FeatureSet& set, const CostTable& graph, std::size_t i, const Transition& t) {
+  const auto cost = [&](std::size_t from, std::uint32_t to) {
+    const auto row = row_of(graph, from);
+    const auto at = std::lower_bound(row.begin(), row.end(), to,
+                                     [](const Transition& a, std::uint32_t b) { return a.to < b; });
+    return at != row.end() && at->to == to ? at->cost : std::numeric_limits<float>::infinity();
+  };
+  const int a = static_cast<int>(i), b = static_cast<int>(t.to);
+  if (follows(set, a, b)) return true;
+  if (follows(set, a - 1, a) && follows(set, b - 1, b) && cost(i - 1, t.to - 1) <= t.cost) {
+    return false;
+  }
+  return !(follows(set, a, a + 1) && follows(set, b, b + 1) && cost(i + 1, t.to + 1) < t.cost);
+}
+
 // The cheapest `limit` of every row (ties: the lowest sample) and natural continuation; then the
 // cheapest edges without which the part would fall apart.
-CostTable capped_rows(const FeatureSet& set, const CostTable& full, std::size_t limit) {
+CostTable capped_rows(const FeatureSet& set, const CostTable& full, std::span<const TagJoin> joins,
+                      const TransitionConfig& config) {
+  const auto limit = static_cast<std::size_t>(config.max_per_sample);
   const std::size_t n = sample_count(full);
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = row_of(full, i);
     std::vector<Transition> cheapest(row.begin(), row.end());
+    if (config.minima) {
+      std::erase_if(cheapest, [&](const Transition& t) { return !is_minimum(set, full, i, t); });
+    }
     if (cheapest.size() > limit) {
       const auto rank = [&](const Transition& t) {
         const bool natural = follows(set, static_cast<int>(i), static_cast<int>(t.to));
@@ -173,10 +243,17 @@ CostTable capped_rows(const FeatureSet& set, const CostTable& full, std::size_t 
     }
     for (const Transition& t : cheapest) edges.push_back({static_cast<std::uint32_t>(i), t});
   }
+  for (const TagJoin& join : joins) edges.push_back({join.from, {join.to, join.cost}});
   const auto build = [&] {
     std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-      return std::tie(a.first, a.second.to) < std::tie(b.first, b.second.to);
+      return std::tie(a.first, a.second.to, a.second.cost) <
+             std::tie(b.first, b.second.to, b.second.cost);
     });
+    edges.erase(std::unique(edges.begin(), edges.end(),
+                            [](const Edge& a, const Edge& b) {
+                              return a.first == b.first && a.second.to == b.second.to;
+                            }),
+                edges.end());
     CostTable table;
     table.kept = full.kept;
     table.row_start.assign(n + 1, 0);
@@ -226,6 +303,27 @@ void count_lost(const FeatureSet& set, const CostTable& graph,
       ++stats.lost_unreachable;
     }
   }
+}
+
+// Transitions that are no continuation, per second of kept film.
+double count_jumps(const FeatureSet& set, const CostTable& table) {
+  double seconds = 0;
+  std::uint64_t jumps = 0;
+  for (std::size_t i = 0; i < sample_count(table); ++i) {
+    if (!table.kept[i]) continue;
+    seconds += set.rows[i].duration / set.fps;
+    for (const Transition& t : row_of(table, i)) {
+      jumps += follows(set, static_cast<int>(i), static_cast<int>(t.to)) ? 0 : 1;
+    }
+  }
+  return seconds > 0 ? static_cast<double>(jumps) / seconds : 0;
+}
+
+int first_tagged(const FeatureSet& set) {
+  for (std::size_t i = 0; i < set.rows.size(); ++i) {
+    if (!set.rows[i].tag.empty()) return static_cast<int>(i);
+  }
+  return -1;
 }
 
 std::string share(int part, std::size_t whole) {
@@ -295,32 +393,44 @@ Components find_components(const CostTable& graph) {
 }
 
 Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDistance> pairs,
-                                  const TransitionConfig& config, TransitionStats& stats) {
-  if (config.max_per_sample < 1 || config.min_back < 1) {
-    return Error{
-        ErrorCode::BadSetting,
-        "transitions: max_per_sample and min_back must be at least 1; correct the setting"};
+                                  const TransitionConfig& config, TransitionStats& stats,
+                                  const Classifier* classifier) {
+  if (config.max_per_sample < 1 || config.min_back < 1 || !(config.near_miss >= 0) ||
+      !(config.near_miss_price > 1)) {
+    return Error{ErrorCode::BadSetting,
+                 "transitions: max_per_sample and min_back must be at least 1, near_miss at least "
+                 "0 and its price above 1; correct the setting"};
   }
   const std::uint64_t n = set.samples.size();
   const std::uint64_t compared = stats.compared;
   stats = {};
   stats.compared = compared;
   stats.pairs = n * (n - (n > 0)) / 2;
-  stats.accepted = pairs.size();
-  const CostTable graph = make_transitions(set, symmetric_rows(n, pairs), config.min_back);
-  const std::vector<std::uint8_t> kept = largest_part(graph);
+  for (const PairDistance& p : pairs) ++(p.distance <= 1 ? stats.accepted : stats.near_misses);
+  CostTable graph = make_transitions(set, symmetric_rows(n, pairs), config);
+  const int tagged = classifier ? first_tagged(set) : -1;
+  CostTable part;  // of `graph`, where it is not all of it: memory counts here
+  if (stats.near_misses > 0) part = accepted_part(graph);
+  if (tagged >= 0) {
+    const CostTable& plain = stats.near_misses > 0 ? part : graph;
+    stats.joins = find_joins(set, *classifier, plain, config.min_back);
+    part = with_joins(plain, stats.joins);
+    graph = with_joins(graph, stats.joins);
+  }
+  const CostTable& accepted = stats.near_misses > 0 || tagged >= 0 ? part : graph;
+  const std::vector<std::uint8_t> kept = largest_part(accepted, tagged);
   if (kept.empty()) {
     return Error{ErrorCode::BadContent,
-                 "transitions: none of " + std::to_string(graph.transitions.size()) +
+                 "transitions: none of " + std::to_string(accepted.transitions.size()) +
                      " transitions among " + std::to_string(n) +
                      " samples leads back to an earlier frame, at least one is due for an endless "
                      "run; film the subject coming back to a pose that it had before"};
   }
-  CostTable table =
-      capped_rows(set, restricted(graph, kept), static_cast<std::size_t>(config.max_per_sample));
-  count_lost(set, graph, kept, stats);
+  CostTable table = capped_rows(set, restricted(graph, kept), stats.joins, config);
+  count_lost(set, accepted, kept, stats);
   give_reasons(n, stats);
   stats.transitions = table.transitions.size();
+  stats.jumps_per_second = count_jumps(set, table);
   return table;
 }
 

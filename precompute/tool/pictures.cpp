@@ -80,6 +80,16 @@ int body_side(const Image& picture) noexcept {
   return right < 0 ? 0 : std::max(right - left, bottom - top) + 1;
 }
 
+FeatureScale trained_scale(const Project& project) {
+  const Json* record = project.record("train");
+  if (record == nullptr || !record->contains("settings")) return FeatureScale::Raw;
+  return feature_scale((*record)["settings"].value("features", "raw"));
+}
+
+FeatureScale feature_scale(std::string_view name) noexcept {
+  return name == "per-area" ? FeatureScale::PerArea : FeatureScale::Raw;
+}
+
 Result<LoadedSprites> load_sprites(const Project& project) {
   const auto rows = project.samples();
   if (!rows) return rows.error();
@@ -99,6 +109,7 @@ Result<LoadedSprites> load_sprites(const Project& project) {
   };
   loaded.features = make_feature_set(*rows, film->fps(), FeatureSet{}.grid, next);
   if (fault) return *fault;
+  loaded.features.scale = trained_scale(project);
   return loaded;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "similarity/features.h"
@@ -45,5 +46,11 @@ struct LoadedSprites {
   std::vector<int> body_sides;  ///< (N) px
 };
 Result<LoadedSprites> load_sprites(const Project& project);
+
+/// `raw` or `per-area`, as --features says it.
+FeatureScale feature_scale(std::string_view name) noexcept;
+/// In which features the classifier of the work folder was trained: weights mean nothing in others.
+/// Loaded sprites are in it.
+FeatureScale trained_scale(const Project& project);
 
 }  // namespace vsprite

@@ -186,6 +186,9 @@ void add_stage_options(Row& t) {
           kSegment);
   t.whole("pairs", "N", &Settings::pairs, 50, 1000000, "labelled pairs taken from the film",
           kTrain);
+  t.text("features", "SCALE", &Settings::features,
+         "how samples differ: as in the paper, or free of scale (film with near and far)", kTrain,
+         "raw|per-area");
   t.whole("folds", "N", &Settings::folds, 2, 20, "parts for held-out testing", kTrain);
   t.real("false-accept-cost", "X", &Settings::false_accept_cost, 1, 1000, false,
          "price of a visible jump, in rejected good ones", kTrain);
@@ -198,6 +201,10 @@ void add_stage_options(Row& t) {
           "cheapest transitions kept out of a sample", kTransitions);
   t.whole("min-back", "SAMPLES", &Settings::min_back, 1, 1000,
           "shortest jump backwards inside a clip, samples", kTransitions);
+  t.text("minima", "WHETHER", &Settings::minima,
+         "of a run of near-identical jumps keep the cheapest only", kTransitions, "on|off");
+  t.real("near-miss", "D", &Settings::near_miss, 0, 10, false,
+         "also take pairs this far beyond the threshold, at three times their price", kTransitions);
   t.text("directions", "N", &Settings::directions,
          "headings to serve; auto = those of the eight that the film holds", kSolve,
          "auto|2|4|8|16|32");

@@ -42,6 +42,9 @@ struct Settings {
   bool save = false;
   int max_per_sample = 100;
   int min_back = 15;
+  std::string features = "raw";
+  std::string minima = "off";
+  double near_miss = 0;
   double alpha = 0.97;
   double w1 = 0.6;
   double cap = 0.8;

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "tool/tiles.h"
 #include "tool/train.h"
 
 namespace vsprite {
@@ -100,6 +101,7 @@ Result<StageKey> train_key(StageRun& run) {
                     {{"pairs", s.pairs},
                      {"folds", s.folds},
                      {"false-accept-cost", s.false_accept_cost},
+                     {"features", s.features},
                      {"seed", s.seed}},
                     {"sprites"});
   if (!key) return key;
@@ -110,7 +112,9 @@ Result<StageKey> train_key(StageRun& run) {
 Result<Json> train_classifier(StageRun& run) {
   const auto sprites = sprites_of(run);
   if (!sprites) return sprites.error();
-  return train_folder(run.project, (*sprites)->features, run.settings);
+  FeatureSet& set = (*sprites)->features;
+  set.scale = feature_scale(run.settings.features);
+  return train_folder(run.project, set, run.settings);
 }
 
 Result<std::string> train_output(StageRun& run) { return run.project.file_sum("classifier.toml"); }
@@ -120,11 +124,37 @@ Result<std::string> train_output(StageRun& run) { return run.project.file_sum("c
 Result<StageKey> transitions_key(StageRun& run) {
   const auto present = run.project.classifier();  // also tells a damaged file from an absent one
   if (!present) return present.error();
-  return key_of(run, "transitions",
-                {{"max-per-sample", run.settings.max_per_sample},
-                 {"min-back", run.settings.min_back},
-                 {"format", kTableVersion}},
-                {"sprites", "classifier.toml"});
+  return key_of(
+      run, "transitions",
+      {{"max-per-sample", run.settings.max_per_sample},
+       {"min-back", run.settings.min_back},
+       {"minima", run.settings.minima},
+       {"near-miss", run.settings.near_miss},
+       {"features", trained_scale(run.project) == FeatureScale::PerArea ? "per-area" : "raw"}},
+      {"sprites", "classifier.toml"});
+}
+
+// A long search says what it needs and keeps its tiles.
+Result<std::vector<PairDistance>> find_pairs(StageRun& run, const FeatureSet& set,
+                                             const Classifier& classifier, float limit,
+                                             std::uint64_t& compared) {
+  const PairFinder finder(set, classifier, limit);
+  const std::uint64_t n = set.samples.size();
+  TileStore store;
+  if (n * (n - 1) / 2 > kLongSearch) {
+    const auto needs = foresee(finder, set.samples.size());
+    if (!needs)
+      return Error{needs.error().code, run.project.folder() + ": " + needs.error().message};
+    if (run.listener.note) run.listener.note(*needs);
+    const auto inputs = sums(run, {"sprites", "classifier.toml"});
+    if (!inputs) return inputs.error();
+    const Json key = {{"tool", kToolVersion},
+                      {"inputs", *inputs},
+                      {"scale", set.scale == FeatureScale::PerArea},
+                      {"limit", limit}};
+    store = keep_tiles(run.project.path("pairs"), hash_bytes(key.dump()));
+  }
+  return accepted_pairs(finder, run.settings.jobs, store, &compared, run.listener.progress);
 }
 
 Result<Json> find_transitions(StageRun& run) {
@@ -136,28 +166,37 @@ Result<Json> find_transitions(StageRun& run) {
   TransitionFile file;
   TransitionStats stats;
   file.v0 = set.v0;
-  file.pairs =
-      accepted_pairs(set, *classifier, run.settings.jobs, &stats.compared, run.listener.progress);
   TransitionConfig config;
+  config.minima = run.settings.minima == "on";
+  config.near_miss = static_cast<float>(run.settings.near_miss);
+  auto pairs = find_pairs(run, set, *classifier, 1 + config.near_miss, stats.compared);
+  if (!pairs) return pairs.error();
+  file.pairs = std::move(*pairs);
   config.max_per_sample = run.settings.max_per_sample;
   config.min_back = run.settings.min_back;
-  config.jobs = run.settings.jobs;
-  auto costs = make_cost_table(set, file.pairs, config, stats);
+  auto costs = make_cost_table(set, file.pairs, config, stats, &*classifier);
   if (!costs) return Error{costs.error().code, run.project.folder() + ": " + costs.error().message};
   file.costs = std::move(*costs);
   file.skip_costs = skip_costs(set, *classifier, file.costs.kept);
   if (auto wrote = write_file(run.project.path("transitions.bin"), format_transitions(file));
       !wrote)
     return wrote.error();
+  std::error_code ignored;
+  fs::remove_all(run.project.path("pairs"), ignored);
+  Json joins = Json::array();
+  for (const TagJoin& join : stats.joins) joins.push_back(describe(join));
   return Json{{"pairs", stats.pairs},
               {"compared", stats.compared},
               {"accepted", stats.accepted},
+              {"near_misses", stats.near_misses},
               {"transitions", stats.transitions},
+              {"jumps_per_second", stats.jumps_per_second},
               {"kept", stats.kept},
               {"lost_clip_end", stats.lost_clip_end},
               {"lost_dead_end", stats.lost_dead_end},
               {"lost_unreachable", stats.lost_unreachable},
-              {"reasons", stats.reasons}};
+              {"reasons", stats.reasons},
+              {"joins", joins}};
 }
 
 Result<std::string> transitions_output(StageRun& run) {

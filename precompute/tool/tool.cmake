@@ -20,6 +20,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/report.cpp
   tool/segment.cpp
   tool/settings.cpp
+  tool/tiles.cpp
   tool/stages.cpp
   tool/train.cpp
   tool/work_files.cpp
