@@ -12,7 +12,6 @@ namespace vsprite {
 namespace {
 
 constexpr int kVariables = kFeatureCount + 1;  // u, then b
-constexpr int kGap = 15;                       // samples left out around a held-out block of time
 constexpr double kMinThreshold = 0.05;         // of b, whose natural size is 1
 
 using Vector = std::array<double, kVariables>;
@@ -21,13 +20,12 @@ using Matrix = std::array<Vector, kVariables>;
 // One labelled pair: margin = y (b - u . x) = a . (u, b).
 struct Example {
   Vector a{};
-  double cost = 1;
-  bool acceptable = false;
-  int i = 0, j = 0;
+  double cost = 1;  // times the label's weight
 };
 
 struct Problem {
-  std::vector<const Example*> examples;
+  std::vector<Example> examples;
+  double weight = 0;  // of all labels
   double ridge = 0;
   Vector lower{};
 };
@@ -40,11 +38,11 @@ double dot(const Vector& a, const Vector& b) {
 
 double loss(const Problem& problem, const Vector& z) {
   double sum = 0;
-  for (const Example* e : problem.examples) {
-    const double slack = 1 - dot(e->a, z);
-    if (slack > 0) sum += e->cost * slack * slack;
+  for (const Example& e : problem.examples) {
+    const double slack = 1 - dot(e.a, z);
+    if (slack > 0) sum += e.cost * slack * slack;
   }
-  sum /= static_cast<double>(problem.examples.size());
+  sum /= problem.weight;
   for (std::size_t k = 0; k < kFeatureCount; ++k) sum += problem.ridge * z[k] * z[k];
   return sum;
 }
@@ -52,14 +50,14 @@ double loss(const Problem& problem, const Vector& z) {
 void derivatives(const Problem& problem, const Vector& z, Vector& gradient, Matrix& hessian) {
   gradient = {};
   hessian = {};
-  const double scale = 2 / static_cast<double>(problem.examples.size());
-  for (const Example* e : problem.examples) {
-    const double slack = 1 - dot(e->a, z);
+  const double scale = 2 / problem.weight;
+  for (const Example& e : problem.examples) {
+    const double slack = 1 - dot(e.a, z);
     if (slack <= 0) continue;
-    for (std::size_t r = 0; r < e->a.size(); ++r) {
-      gradient[r] -= scale * e->cost * slack * e->a[r];
-      for (std::size_t c = 0; c < e->a.size(); ++c) {
-        hessian[r][c] += scale * e->cost * e->a[r] * e->a[c];
+    for (std::size_t r = 0; r < e.a.size(); ++r) {
+      gradient[r] -= scale * e.cost * slack * e.a[r];
+      for (std::size_t c = 0; c < e.a.size(); ++c) {
+        hessian[r][c] += scale * e.cost * e.a[r] * e.a[c];
       }
     }
   }
@@ -122,94 +120,64 @@ Vector minimise(const Problem& problem, Vector z) {
   return z;
 }
 
-// First with u >= 0, then again with every weight held above its share of their sum.
-Vector fit(const std::vector<const Example*>& examples, const std::array<double, kFeatureCount>& sd,
-           const TrainConfig& config) {
-  Problem problem{examples, config.ridge, {}};
+Problem make_problem(const LabelledPairs& pairs, std::span<const int> chosen,
+                     const std::array<double, kFeatureCount>& spread, const TrainConfig& config) {
+  const auto label_at = [&](int k) -> const Label& {
+    return pairs.labels[static_cast<std::size_t>(k)];
+  };
+  const auto answers =
+      std::count_if(chosen.begin(), chosen.end(), [&](int k) { return label_at(k).by_person; });
+  const auto from_film = std::ssize(chosen) - answers;
+  const double film_weight =
+      answers > 0 && from_film > 0 ? config.film_labels_worth / static_cast<double>(from_film) : 1;
+  Problem problem;
+  problem.ridge = config.ridge;
   problem.lower.back() = kMinThreshold;
+  for (const int k : chosen) {
+    const Label& label = label_at(k);
+    const double y = label.acceptable ? 1 : -1, weight = label.by_person ? 1 : film_weight;
+    Example e{{}, weight * (label.acceptable ? 1 : config.false_accept_cost)};
+    const FeatureVector& f = pairs.vectors[static_cast<std::size_t>(k)];
+    for (std::size_t n = 0; n < kFeatureCount; ++n)
+      if (spread[n] > 0) e.a[n] = -y * static_cast<double>(f[n]) / spread[n];
+    e.a.back() = y;
+    problem.weight += weight;
+    problem.examples.push_back(e);
+  }
+  return problem;
+}
+
+// First with u >= 0, then again with every weight held above its share of their sum.
+Vector fit(Problem problem, const std::array<double, kFeatureCount>& spread,
+           const TrainConfig& config) {
   Vector z{};
   z.back() = 1;
   z = minimise(problem, z);
   double sum = 0;
   for (std::size_t k = 0; k < kFeatureCount; ++k) sum += z[k];
   for (std::size_t k = 0; k < kFeatureCount; ++k) {
-    problem.lower[k] = sd[k] > 0 ? config.floor * sum : 0;
+    problem.lower[k] = spread[k] > 0 ? config.floor * sum : 0;
     z[k] = std::max(z[k], problem.lower[k]);
   }
   return minimise(problem, z);
 }
 
-// The fold of every sample: whole clips, longest first, each to the fold with the fewest samples;
-// or blocks of time.
-std::vector<int> make_folds(const FeatureSet& set, int folds) {
-  struct Clip {
-    int clip = 0;
-    std::size_t begin = 0, size = 0;
-  };
-  const std::size_t n = set.rows.size(), parts = static_cast<std::size_t>(folds);
-  std::vector<Clip> clips;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (clips.empty() || clips.back().clip != set.rows[i].clip)
-      clips.push_back({set.rows[i].clip, i, 0});
-    ++clips.back().size;
-  }
-  std::stable_sort(clips.begin(), clips.end(),
-                   [](const Clip& a, const Clip& b) { return a.size > b.size; });
-  std::vector<int> fold(n);
-  if (clips.size() < parts || 2 * clips.front().size > n) {
-    for (std::size_t i = 0; i < n; ++i) fold[i] = static_cast<int>(i * parts / n);
-    return fold;
-  }
-  std::vector<std::size_t> filled(parts, 0);
-  for (const Clip& clip : clips) {
-    const auto least = std::min_element(filled.begin(), filled.end());
-    *least += clip.size;
-    std::fill_n(fold.begin() + static_cast<std::ptrdiff_t>(clip.begin), clip.size,
-                static_cast<int>(least - filled.begin()));
-  }
-  return fold;
+}  // namespace
+
+float Classifier::distance(const FeatureVector& f) const noexcept {
+  double sum = 0;
+  for (std::size_t k = 0; k < f.size(); ++k) sum += weights[k] * static_cast<double>(f[k]);
+  return static_cast<float>(sum / threshold);
 }
 
-// True if the sample lies in fold `held`, or in the same clip within kGap samples of it.
-bool touches(const FeatureSet& set, const std::vector<int>& fold, int sample, int held) {
-  const int n = static_cast<int>(fold.size());
-  const auto at = static_cast<std::size_t>(sample);
-  for (int s = std::max(0, sample - kGap); s <= std::min(n - 1, sample + kGap); ++s) {
-    const auto k = static_cast<std::size_t>(s);
-    if (fold[k] == held && set.rows[k].clip == set.rows[at].clip) return true;
-  }
-  return false;
+LabelledPairs measure_pairs(const FeatureSet& set, std::vector<Label> labels) {
+  LabelledPairs pairs{std::move(labels), {}};
+  pairs.vectors.reserve(pairs.labels.size());
+  for (const Label& l : pairs.labels) pairs.vectors.push_back(features(set, l.i, l.j));
+  return pairs;
 }
 
-bool has_both_classes(const std::vector<const Example*>& examples) {
-  const auto acceptable = [](const Example* e) { return e->acceptable; };
-  return std::any_of(examples.begin(), examples.end(), acceptable) &&
-         !std::all_of(examples.begin(), examples.end(), acceptable);
-}
-
-Confusion cross_validate(const FeatureSet& set, const std::vector<Example>& examples,
-                         const std::array<double, kFeatureCount>& sd, const TrainConfig& config) {
-  Confusion held_out;
-  const std::vector<int> fold = make_folds(set, config.folds);
-  for (int held = 0; held < config.folds; ++held) {
-    std::vector<const Example*> training, test;
-    for (const Example& e : examples) {
-      if (fold[static_cast<std::size_t>(e.i)] == held) test.push_back(&e);
-      if (!touches(set, fold, e.i, held) && !touches(set, fold, e.j, held)) training.push_back(&e);
-    }
-    if (test.empty() || !has_both_classes(training)) continue;
-    const Vector z = fit(training, sd, config);
-    for (const Example* e : test) {
-      const double margin = dot(e->a, z);
-      int& count = e->acceptable ? (margin >= 0 ? held_out.true_accept : held_out.false_reject)
-                                 : (margin > 0 ? held_out.true_reject : held_out.false_accept);
-      ++count;
-    }
-  }
-  return held_out;
-}
-
-std::array<double, kFeatureCount> measure_spread(const std::vector<FeatureVector>& vectors) {
+std::array<double, kFeatureCount> measure_spread(std::span<const FeatureVector> vectors) {
   std::array<double, kFeatureCount> sd{};
   const auto n = static_cast<double>(vectors.size());
   for (std::size_t k = 0; k < sd.size(); ++k) {
@@ -224,68 +192,15 @@ std::array<double, kFeatureCount> measure_spread(const std::vector<FeatureVector
   return sd;
 }
 
-Result<void> check(const FeatureSet& set, std::span<const Label> labels,
-                   const TrainConfig& config) {
-  if (!(config.false_accept_cost > 0) || !(config.ridge > 0) || !(config.floor >= 0) ||
-      !(config.floor <= 0.1) || config.folds < 2) {
-    return Error{ErrorCode::BadSetting,
-                 "train: false_accept_cost and ridge must be above 0, floor in 0..0.1, folds at "
-                 "least 2; correct the setting"};
-  }
-  const auto acceptable =
-      std::count_if(labels.begin(), labels.end(), [](const Label& l) { return l.acceptable; });
-  const bool none_good = acceptable == 0;
-  if (none_good || acceptable == std::ssize(labels)) {
-    return Error{ErrorCode::BadContent,
-                 "train: " + std::to_string(labels.size()) + " labelled pairs of " +
-                     std::to_string(set.samples.size()) + " samples hold " +
-                     (none_good ? "no acceptable pair" : "no unacceptable pair") +
-                     ", at least one of each kind is due; film the subject for longer and let it "
-                     "take different poses"};
-  }
-  return {};
-}
-
-}  // namespace
-
-float Classifier::distance(const FeatureVector& f) const noexcept {
-  double sum = 0;
-  for (std::size_t k = 0; k < f.size(); ++k) sum += weights[k] * static_cast<double>(f[k]);
-  return static_cast<float>(sum / threshold);
-}
-
-Result<Training> train(const FeatureSet& set, std::span<const Label> labels,
-                       const TrainConfig& config) {
-  if (auto ok = check(set, labels, config); !ok) return ok.error();
-  std::vector<FeatureVector> vectors;
-  for (const Label& l : labels) vectors.push_back(features(set, l.i, l.j));
-
-  Training result;
-  result.spread = measure_spread(vectors);
-  std::vector<Example> examples;
-  for (std::size_t n = 0; n < labels.size(); ++n) {
-    const double y = labels[n].acceptable ? 1 : -1;
-    Example e{{},
-              labels[n].acceptable ? 1 : config.false_accept_cost,
-              labels[n].acceptable,
-              labels[n].i,
-              labels[n].j};
-    for (std::size_t k = 0; k < kFeatureCount; ++k) {
-      if (result.spread[k] > 0) e.a[k] = -y * static_cast<double>(vectors[n][k]) / result.spread[k];
-    }
-    e.a.back() = y;
-    examples.push_back(e);
-  }
-  std::vector<const Example*> all;
-  for (const Example& e : examples) all.push_back(&e);
-
-  const Vector z = fit(all, result.spread, config);
-  for (std::size_t k = 0; k < kFeatureCount; ++k) {
-    result.classifier.weights[k] = result.spread[k] > 0 ? z[k] / result.spread[k] : 0;
-  }
-  result.classifier.threshold = z.back();
-  result.held_out = cross_validate(set, examples, result.spread, config);
-  return result;
+Classifier fit_classifier(const LabelledPairs& pairs, std::span<const int> chosen,
+                          const std::array<double, kFeatureCount>& spread,
+                          const TrainConfig& config) {
+  const Vector z = fit(make_problem(pairs, chosen, spread, config), spread, config);
+  Classifier classifier;
+  for (std::size_t k = 0; k < kFeatureCount; ++k)
+    classifier.weights[k] = spread[k] > 0 ? z[k] / spread[k] : 0;
+  classifier.threshold = z.back();
+  return classifier;
 }
 
 }  // namespace vsprite

@@ -21,6 +21,7 @@ struct Label {
   int i = 0, j = 0;
   bool acceptable = false;
   bool by_person = false;
+  bool at_random = false;  ///< a person was asked about a pair that chance picked (ask.h)
 };
 
 /// Labels bootstrapped from the film; deterministic in (set, seed). About `count` pairs, half of

@@ -3,7 +3,9 @@
 target_sources(vsprite_precompute PRIVATE
   similarity/features.cpp
   similarity/label.cpp
+  similarity/ask.cpp
   similarity/classifier.cpp
+  similarity/held_out.cpp
   similarity/distance.cpp
   similarity/transitions.cpp
 )

@@ -25,6 +25,8 @@ void flip(Image& image) {
   }
 }
 
+}  // namespace
+
 // A mirrored sample has no picture of its own.
 Result<Image> read_sprite(const Project& project, const SampleRow& row) {
   const bool mirrored = row.mirror_of >= 0;
@@ -45,8 +47,6 @@ Result<Image> read_sprite(const Project& project, const SampleRow& row) {
                                            " px where samples.csv says " + size(width, height) +
                                            ": keep the size when retouching"};
 }
-
-}  // namespace
 
 PictureReader::PictureReader(const Project& project, const std::vector<SampleRow>& rows)
     : project_(project), rows_(rows) {}

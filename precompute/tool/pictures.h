@@ -32,6 +32,10 @@ class PictureReader {
   std::vector<Result<Image>> batch_;
 };
 
+/// The straight-alpha picture of one sample, mirrored where the sample is.
+/// Errors: CorruptData (missing, damaged, or of another size than its row says).
+Result<Image> read_sprite(const Project& project, const SampleRow& row);
+
 /// The longer side of the box of pixels with alpha >= 128; 0 if there is none.
 int body_side(const Image& picture) noexcept;
 

@@ -45,6 +45,49 @@ std::string counted(const Json& result,
   return out;
 }
 
+std::string confusion_text(const Json& c) {
+  return "smooth " + count_text(c, "true_accept") + " accepted, " + count_text(c, "false_reject") +
+         " rejected; not smooth " + count_text(c, "false_accept") + " accepted, " +
+         count_text(c, "true_reject") + " rejected";
+}
+
+/// Whose labels they are stands first; how far they can be trusted follows.
+std::vector<std::string> train_lines(const Json& r) {
+  std::vector<std::string> lines;
+  const std::int64_t person = count_of(r, "by_person");
+  if (person == 0) {
+    lines.push_back(count_text(r, "labels") + " pairs labelled by the film (bootstrap), " +
+                    count_text(r, "acceptable") + " of them smooth");
+  } else {
+    lines.push_back(count_text(r, "by_person") + " pairs labelled by a person; the film's own " +
+                    std::to_string(count_of(r, "labels") - person) + " (bootstrap) weigh " +
+                    count_text(r, "film_labels_worth") + " answers");
+    lines.push_back("held-out answers: " + confusion_text(r.value("confusion_by_person", Json())));
+  }
+  lines.push_back("held-out pairs: " + confusion_text(r.value("confusion", Json::object())));
+  std::string weights;
+  const Json shares = r.value("weight_shares", Json::object());
+  for (const auto& [name, share] : shares.items())
+    weights += (weights.empty() ? "" : ", ") + name + " " + fixed_text(real_of(share, "mean"), 2) +
+               " +- " + fixed_text(real_of(share, "sd"), 2);
+  if (!weights.empty()) lines.push_back("weight x sd over the folds: " + weights);
+  if (const Json e = r.value("false_accepts", Json::object()); count_of(e, "accepted") > 0)
+    lines.push_back("drawn at random: " + count_text(e, "wrong") + " of " +
+                    count_text(e, "accepted") + " accepted pairs were called a jump; at most " +
+                    fixed_text(100 * real_of(e, "likely_at_most"), 1) + " % in the film");
+  if (r.contains("moved"))
+    lines.push_back("threshold moved to " + fixed_text(real_of(r, "moved"), 3));
+  const std::string odd =
+      counted(r.value("answers", Json::object()),
+              {{"gone", "about samples that are not here (kept, not used)"},
+               {"repeated", "superseded by a later one"},
+               {"disagreeing", "of these said the opposite (the last counts)"}});
+  if (!odd.empty()) lines.push_back("answers: " + odd);
+  for (const Json& warning : r.value("label_warnings", Json::array()))
+    if (warning.is_string()) lines.push_back(warning.get<std::string>());
+  return lines;
+}
+
 std::vector<std::string> stage_lines(const StageOutcome& stage) {
   const Json& r = stage.result;
   std::vector<std::string> lines;
@@ -69,13 +112,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     lines.push_back("noise of the velocity " + fixed_text(real_of(r, "velocity_noise"), 1) +
                     " px/s");
   } else if (stage.name == "train") {
-    const Json c = r.value("confusion", Json::object());
-    lines.push_back(count_text(r, "labels") + " pairs labelled by the film, " +
-                    count_text(r, "acceptable") + " of them smooth");
-    lines.push_back("held-out pairs: smooth " + count_text(c, "true_accept") + " accepted, " +
-                    count_text(c, "false_reject") + " rejected; not smooth " +
-                    count_text(c, "false_accept") + " accepted, " + count_text(c, "true_reject") +
-                    " rejected");
+    lines = train_lines(r);
   } else if (stage.name == "transitions") {
     lines.push_back(count_text(r, "pairs") + " pairs, " + count_text(r, "accepted") +
                     " accepted -> " + count_text(r, "transitions") + " transitions among " +

@@ -190,6 +190,11 @@ void add_stage_options(Row& t) {
   t.whole("folds", "N", &Settings::folds, 2, 20, "parts for held-out testing", kTrain);
   t.real("false-accept-cost", "X", &Settings::false_accept_cost, 1, 1000, false,
          "price of a visible jump, in rejected good ones", kTrain);
+  t.real("threshold", "X", &Settings::threshold, 0, 10, false,
+         "moves the line: 0.8 allows 0.8 of the learned difference; 0 = as saved, at first 1. "
+         "`train` shows what it would do, and takes it with --save",
+         kTrain);
+  t.flag("save", &Settings::save, "with --threshold: take it", " train ").in_config = false;
   t.whole("max-per-sample", "N", &Settings::max_per_sample, 1, 10000,
           "cheapest transitions kept out of a sample", kTransitions);
   t.whole("min-back", "SAMPLES", &Settings::min_back, 1, 1000,
@@ -202,18 +207,32 @@ void add_stage_options(Row& t) {
           "transitions without a motion constraint after a change of direction", kSolve);
 }
 
+void add_label_options(Row& t) {
+  t.whole("pairs", "N", &Settings::questions, 1, 1000000, "questions of one sitting", " label ")
+      .in_config = false;
+  t.text("answers", "FILE", &Settings::answers,
+         "no window: take the answers of a CSV file, `i,j,acceptable` or as --export writes it",
+         " label ")
+      .in_config = false;
+  t.text("export", "FILE", &Settings::export_file, "no window: write all answers as CSV", " label ")
+      .in_config = false;
+  t.text("bind", "KEYS", &Settings::bind,
+         "other keys in the window, e.g. \"accept=a flip=s undo=u\"; F1 there lists them",
+         " label ");
+}
+
 void add_use_options(Row& t) {
   t.text("keys", "SCRIPT", &Settings::keys,
          "held directions by seconds: \"0.0 right; 2.5 right+up\", or a file of them",
          " steer play ");
   t.whole("frames", "N", &Settings::frames, 0, 1000000000,
-          "ticks to run; 0 = 12 s (steer), for ever (play)", " steer play ");
+          "ticks to run; 0 = 12 s (steer), for ever (play, label)", " steer play label ");
   t.text("mode", "MODE", &Settings::mode, "which solved tables steer", " steer ",
          "paper|responsive");
   t.text("trace", "FILE", &Settings::trace, "one line a tick, as CSV", " steer ");
-  t.flag("headless", &Settings::headless, "no window: play the keys and end", " play ");
+  t.flag("headless", &Settings::headless, "no window: play the keys and end", " play label ");
   t.text("record", "FILE", &Settings::record, "film of the run (.mp4) or last picture (.png)",
-         " play ");
+         " play label ");
   t.text("what", "WHAT", &Settings::what, "which numbers", " dump ",
          "samples|labels|features|distances|transitions|values");
   t.text("format", "FORMAT", &Settings::format, "how they are written", " dump ", "csv|npy");
@@ -227,7 +246,7 @@ void add_common_options(Row& t) {
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",
-         " segment train transitions solve pack build play dump doctor ");
+         " segment label train transitions solve pack build play dump doctor ");
   t.list("force", "STAGE", &Settings::force, "run this stage again, whatever stands there",
          " segment train transitions solve pack build play ",
          "segment|train|transitions|solve|pack|all");
@@ -253,6 +272,7 @@ Row make_table() {
   t.texts.reserve(200);
   t.options.reserve(100);
   add_stage_options(t);
+  add_label_options(t);
   add_use_options(t);
   add_common_options(t);
   return t;

@@ -38,6 +38,8 @@ struct Settings {
   int pairs = 3000;
   int folds = 5;
   double false_accept_cost = 10;
+  double threshold = 0;  ///< the designer's move of the line; 0: as saved
+  bool save = false;
   int max_per_sample = 100;
   int min_back = 15;
   double alpha = 0.97;
@@ -56,6 +58,12 @@ struct Settings {
   std::string trace;
   std::string record;
   bool headless = false;
+
+  // Labelling.
+  int questions = 500;
+  std::string answers;
+  std::string export_file;
+  std::string bind;
 
   // Looking into it.
   std::string what;

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "similarity/label.h"
+#include "tool/train.h"
 
 namespace vsprite {
 namespace {
@@ -96,44 +96,21 @@ Result<std::string> segment_output(StageRun& run) { return run.project.sprites_s
 
 Result<StageKey> train_key(StageRun& run) {
   const Settings& s = run.settings;
-  return key_of(run, "train",
-                {{"pairs", s.pairs},
-                 {"folds", s.folds},
-                 {"false-accept-cost", s.false_accept_cost},
-                 {"seed", s.seed}},
-                {"sprites"});
+  auto key = key_of(run, "train",
+                    {{"pairs", s.pairs},
+                     {"folds", s.folds},
+                     {"false-accept-cost", s.false_accept_cost},
+                     {"seed", s.seed}},
+                    {"sprites"});
+  if (!key) return key;
+  if (auto added = add_labels_to_key(run.project, s, *key); !added) return added.error();
+  return key;
 }
 
 Result<Json> train_classifier(StageRun& run) {
   const auto sprites = sprites_of(run);
   if (!sprites) return sprites.error();
-  const FeatureSet& set = (*sprites)->features;
-  const std::vector<Label> labels = bootstrap_labels(set, run.settings.pairs, run.settings.seed);
-  TrainConfig config;
-  config.folds = run.settings.folds;
-  config.false_accept_cost = run.settings.false_accept_cost;
-  const auto training = train(set, labels, config);
-  if (!training)
-    return Error{training.error().code, run.project.folder() + ": " + training.error().message};
-  if (auto wrote = write_file(run.project.path("classifier.toml"), format_classifier(*training));
-      !wrote)
-    return wrote.error();
-  int acceptable = 0, by_person = 0;
-  for (const Label& label : labels) acceptable += label.acceptable, by_person += label.by_person;
-  Json weights = Json::object();
-  for (std::size_t k = 0; k < kFeatureCount; ++k)
-    weights[kFeatureNames[k]] = training->classifier.weights[k];
-  const Confusion& held = training->held_out;
-  return Json{{"labels", labels.size()},
-              {"acceptable", acceptable},
-              {"by_person", by_person},
-              {"threshold", training->classifier.threshold},
-              {"weights", weights},
-              {"confusion",
-               {{"true_accept", held.true_accept},
-                {"false_accept", held.false_accept},
-                {"true_reject", held.true_reject},
-                {"false_reject", held.false_reject}}}};
+  return train_folder(run.project, (*sprites)->features, run.settings);
 }
 
 Result<std::string> train_output(StageRun& run) { return run.project.file_sum("classifier.toml"); }

@@ -4,12 +4,15 @@
 # The work folder and its stages, in the library, so that tests reach them without the program.
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash)
+pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash sqlite3)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
 target_sources(vsprite_precompute PRIVATE
   tool/build_pack.cpp
   tool/files.cpp
   tool/keyed.cpp
+  tool/label_store.cpp
+  tool/label_session.cpp
+  tool/labels.cpp
   tool/pictures.cpp
   tool/preview.cpp
   tool/project.cpp
@@ -17,6 +20,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/segment.cpp
   tool/settings.cpp
   tool/stages.cpp
+  tool/train.cpp
   tool/work_files.cpp
 )
 target_link_libraries(vsprite_precompute PUBLIC nlohmann_json::nlohmann_json PRIVATE PkgConfig::TOOL_DEPS)
@@ -30,7 +34,9 @@ add_executable(vsprite
   tool/commands/dump.cpp
   tool/commands/help.cpp
   tool/commands/inspect.cpp
+  tool/commands/label.cpp
   tool/commands/parse.cpp
+  tool/commands/train.cpp
 )
 target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)
 if(TARGET vsprite_window)

@@ -250,24 +250,30 @@ Result<std::vector<SampleRow>> parse_samples(const std::string& text, const std:
   return rows;
 }
 
-std::string format_classifier(const Training& training) {
+std::string format_classifier(const Training& training, double moved) {
   std::string out =
       "# Smooth or not: D = sum of weight x feature / threshold; a jump is smooth where D <= 1.\n"
       "# Weights are per unit of the feature and never negative. May be edited: the stages after "
       "it\n"
       "# take it up.\n";
-  out += "threshold = " + number_text(training.classifier.threshold);
-  if (out.find_first_of(".e", out.rfind('=')) == std::string::npos) out += ".0";
-  out += "\n\n[weights]\n";
-  for (std::size_t k = 0; k < kFeatureCount; ++k) {
-    std::string weight = number_text(training.classifier.weights[k]);
-    if (weight.find_first_of(".e") == std::string::npos) weight += ".0";
-    out += std::string(kFeatureNames[k]) + " = " + weight + "\n";
+  const auto add = [&out](const std::string& name, double value) {
+    std::string number = number_text(value);
+    if (number.find_first_of(".e") == std::string::npos) number += ".0";
+    out += name + " = " + number + "\n";
+  };
+  add("threshold", training.classifier.threshold);
+  if (moved != 1) {
+    out += "# The designer's move: the line lies at threshold x moved.\n";
+    add("moved", moved);
   }
+  out += "\n[weights]\n";
+  for (std::size_t k = 0; k < kFeatureCount; ++k)
+    add(kFeatureNames[k], training.classifier.weights[k]);
   return out;
 }
 
-Result<Classifier> parse_classifier(const std::string& text, const std::string& path) {
+Result<Classifier> parse_classifier(const std::string& text, const std::string& path,
+                                    double* moved) {
   const auto fault = [&path](const toml::source_position& at, const std::string& what) {
     return Error{ErrorCode::CorruptData, path + ":" + std::to_string(std::max(at.line, 1u)) + ":" +
                                              std::to_string(std::max(at.column, 1u)) + ": " + what};
@@ -291,6 +297,12 @@ Result<Classifier> parse_classifier(const std::string& text, const std::string& 
   if (auto ok = number(root, "threshold", classifier.threshold); !ok) return ok.error();
   if (classifier.threshold <= 0)
     return fault(root.get("threshold")->source().begin, "`threshold` must be above 0");
+  double move = 1;
+  if (root.contains("moved"))
+    if (auto ok = number(root, "moved", move); !ok) return ok.error();
+  if (move <= 0) return fault(root.get("moved")->source().begin, "`moved` must be above 0");
+  classifier.threshold *= move;
+  if (moved != nullptr) *moved = move;
   const toml::table* weights = root["weights"].as_table();
   if (weights == nullptr) return fault(root.source().begin, "the table [weights] is missing");
   const std::vector<std::string> names(kFeatureNames, kFeatureNames + kFeatureCount);

@@ -30,9 +30,11 @@ std::string format_samples(const std::vector<SampleRow>& rows);
 /// Errors: CorruptData, as `path:line:column: ...`.
 Result<std::vector<SampleRow>> parse_samples(const std::string& text, const std::string& path);
 
-std::string format_classifier(const Training& training);
-/// Errors: CorruptData, as `path:line:column: ...`.
-Result<Classifier> parse_classifier(const std::string& text, const std::string& path);
+/// `moved`: the designer's move of the line (train.h); 1 is not written.
+std::string format_classifier(const Training& training, double moved = 1);
+/// The move is part of the threshold. Errors: CorruptData, as `path:line:column: ...`.
+Result<Classifier> parse_classifier(const std::string& text, const std::string& path,
+                                    double* moved = nullptr);
 
 /// transitions.bin: u64 samples, u64 transitions, u64 pairs; f64 v0, px/s; row_start u32[samples +
 /// 1]; (u32 to, f32 cost)[transitions]; u8 kept[samples]; (u32 i, u32 j, f32 distance)[pairs].

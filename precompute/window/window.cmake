@@ -5,8 +5,15 @@
 if(NOT VSPRITE_DRAW)
   return()
 endif()
-add_library(vsprite_window STATIC window/play.cpp window/play_view.cpp)
+# Debian's Dear ImGui holds its SDL2 and OpenGL 3 backends; their headers lie one folder deeper.
+pkg_check_modules(WINDOW_DEPS REQUIRED IMPORTED_TARGET sdl2 epoxy)
+pkg_check_modules(IMGUI REQUIRED imgui)
+find_path(IMGUI_BACKENDS imgui_impl_sdl.h PATHS ${IMGUI_INCLUDE_DIRS} PATH_SUFFIXES backends imgui/backends REQUIRED)
+add_library(vsprite_window STATIC window/label.cpp window/label_keys.cpp window/label_view.cpp
+  window/play.cpp window/play_view.cpp)
 target_include_directories(vsprite_window PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
-target_link_libraries(vsprite_window PUBLIC vsprite_engine
-  PRIVATE $<BUILD_INTERFACE:vsprite_flags> vsprite_draw)
+target_include_directories(vsprite_window SYSTEM PRIVATE ${IMGUI_INCLUDE_DIRS} ${IMGUI_BACKENDS})
+target_link_libraries(vsprite_window PUBLIC vsprite_engine vsprite_precompute
+  PRIVATE $<BUILD_INTERFACE:vsprite_flags> vsprite_draw PkgConfig::WINDOW_DEPS ${IMGUI_LIBRARIES}
+  ${CMAKE_DL_LIBS})
 vsprite_embed_shaders(vsprite_window ${PROJECT_SOURCE_DIR}/shaders/play)

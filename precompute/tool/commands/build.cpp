@@ -112,7 +112,9 @@ Result<int> run_preview(const Settings& settings, Console& console) {
 Result<int> run_segment(const Settings& s, Console& c) {
   return s.preview > 0 ? run_preview(s, c) : run_one(s, c, kSegment);
 }
-Result<int> run_train(const Settings& s, Console& c) { return run_one(s, c, 1); }
+Result<int> run_stage_verb(const Settings& s, Console& c, int stage) {
+  return run_one(s, c, stage);
+}
 Result<int> run_transitions(const Settings& s, Console& c) { return run_one(s, c, 2); }
 Result<int> run_solve(const Settings& s, Console& c) { return run_one(s, c, 3); }
 Result<int> run_pack(const Settings& s, Console& c) { return run_one(s, c, kPack); }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "similarity/label.h"
 #include "tool/commands/verbs.h"
+#include "tool/labels.h"
 #include "tool/pictures.h"
 #include "tool/project.h"
 
@@ -54,7 +54,7 @@ Table samples_table(const std::vector<SampleRow>& rows) {
   return table_of(columns, std::move(values));
 }
 
-/// The pairs that `train` learned from: drawn again with the settings of its record.
+/// The pairs that `train` learns from: drawn again with the settings of its record, and a person's.
 Result<std::vector<Label>> labels_of(const Project& project, const FeatureSet& set,
                                      const Settings& settings) {
   const Json* record = project.record("train");
@@ -68,7 +68,9 @@ Result<std::vector<Label>> labels_of(const Project& project, const FeatureSet& s
   const Json made = record->value("settings", Json::object());
   if (made.contains("pairs") && made["pairs"].is_number_integer()) count = made["pairs"];
   if (made.contains("seed") && made["seed"].is_number_unsigned()) seed = made["seed"];
-  return bootstrap_labels(set, count, seed);
+  auto labels = folder_labels(project, set, count, seed);
+  if (!labels) return labels.error();
+  return std::move(labels->labels);
 }
 
 Result<std::vector<Label>> read_pairs(const std::string& path, int samples) {

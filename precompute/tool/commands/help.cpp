@@ -9,8 +9,10 @@ namespace {
 constexpr Verb kVerbs[] = {
     {"segment", "FILM", "film -> mattes, sprites, velocities",
      "vsprite segment hamster.mp4 --key '#2060c0' --max-size 128", run_segment},
+    {"label", "FILM|PACK|--work DIR", "say which jumps look right, in a window or from a file",
+     "vsprite label --work hamster.work --pairs 200", run_label},
     {"train", "FILM|PACK|--work DIR", "labelled pairs of sprites -> classifier",
-     "vsprite train --work hamster.work --pairs 5000", run_train},
+     "vsprite train --work hamster.work --threshold 0.8", run_train},
     {"transitions", "FILM|PACK|--work DIR", "classifier -> which frame may follow which",
      "vsprite transitions --work hamster.work --max-per-sample 50", run_transitions},
     {"solve", "FILM|PACK|--work DIR", "transitions -> cost tables, eight directions",
@@ -78,8 +80,9 @@ std::string overview_screen() {
       "in this order:\n"
       "  segment      film -> mattes, sprites, velocities           --key auto  --preview N  "
       "--draft\n"
-      "  train        labels -> classifier                          --pairs N (3000)  --folds N "
-      "(5)\n"
+      "  label        say which jumps look right (optional)         --pairs N (500)  --answers "
+      "FILE\n"
+      "  train        labels -> classifier                          --threshold X  --folds N (5)\n"
       "  transitions  classifier -> which frame may follow which    --max-per-sample N (100)\n"
       "  solve        transitions -> cost tables, eight directions  --alpha A (0.97)  --free-steps "
       "K (5)\n"

@@ -39,6 +39,7 @@ Result<Settings> parse_arguments(const Verb& verb, int count, char** arguments, 
 Error unknown_verb(const std::string& word);
 
 Result<int> run_segment(const Settings&, Console&);
+Result<int> run_label(const Settings&, Console&);
 Result<int> run_train(const Settings&, Console&);
 Result<int> run_transitions(const Settings&, Console&);
 Result<int> run_solve(const Settings&, Console&);
@@ -50,6 +51,9 @@ Result<int> run_info(const Settings&, Console&);
 Result<int> run_validate(const Settings&, Console&);
 Result<int> run_dump(const Settings&, Console&);
 Result<int> run_doctor(const Settings&, Console&);
+
+/// One stage of kStages, reported.
+Result<int> run_stage_verb(const Settings&, Console&, int stage);
 
 /// A word as a shell takes it back.
 std::string shell_word(const std::string& word);
