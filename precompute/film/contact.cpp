@@ -218,13 +218,18 @@ Image make_contact_sheet(std::span<const Frame> frames, std::span<const KeyedFra
   return sheet;
 }
 
-Image show_parts(const Frame& frame, std::span<const Blob> parts) {
-  const double zoom = std::min(1.0, static_cast<double>(kShownWidth) / frame.width);
-  const int width = std::max(static_cast<int>(frame.width * zoom), 1);
-  const int height = std::max(static_cast<int>(frame.height * zoom), 1);
+Image show_parts(const KeyedFrame& keyed, int film_width, int film_height,
+                 std::span<const Blob> parts) {
+  Frame frame;  // its size alone: no pixel of it is shown
+  frame.width = film_width;
+  frame.height = film_height;
+  const double zoom = std::min(1.0, static_cast<double>(kShownWidth) / film_width);
+  const int width = std::max(static_cast<int>(film_width * zoom), 1);
+  const int height = std::max(static_cast<int>(film_height * zoom), 1);
   Image picture = make_sheet(width, height);
   const Cell cell{picture, 0, 0, width, height};
-  draw_cell(frame, {}, View::Film, {}, {0, 0, frame.width, frame.height}, zoom, cell);
+  draw_cell(frame, keyed, View::Background, Image{1, 1, {128, 128, 128, 255}},
+            {0, 0, film_width, film_height}, zoom, cell);
   const auto at = [zoom](int film) { return static_cast<int>(film * zoom); };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const Rect& box = parts[k].box;

@@ -27,8 +27,8 @@ struct ContactConfig {
 Image make_contact_sheet(std::span<const Frame> frames, std::span<const KeyedFrame> keyed,
                          const ContactConfig& config = {});
 
-/// A frame at most 640 px wide with a box about each part; the boxes are numbered from 1 where
-/// there are several.
-Image show_parts(const Frame& frame, std::span<const Blob> parts);
+/// What was keyed of a film of `width` x `height` px, over grey, at most 640 px wide, with a box
+/// about each part of `parts`; the boxes are numbered from 1 where there are several.
+Image show_parts(const KeyedFrame& keyed, int width, int height, std::span<const Blob> parts);
 
 }  // namespace vsprite

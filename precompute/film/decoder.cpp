@@ -247,6 +247,7 @@ Hello describe(const Film& film, const AVFrame& first) {
   }
   hello.claimed_frames = claimed >= 1 && claimed < 1e9 ? static_cast<std::int32_t>(claimed) : 0;
   hello.rotation = rotation_of(stream);
+  if (hello.rotation % 180 != 0) std::swap(hello.width, hello.height);
   hello.time_numerator = static_cast<std::uint32_t>(stream.time_base.num);
   hello.time_denominator = static_cast<std::uint32_t>(stream.time_base.den);
   hello.coding = coding_of(first);
@@ -263,15 +264,30 @@ Hello describe(const Film& film, const AVFrame& first) {
   return hello;
 }
 
-// Frames to the pipe; what is not 8-bit 4:2:0 is made so.
+// A plane as a player shows it, turned clockwise by 90, 180 or 270 degrees.
+std::vector<std::uint8_t> turned(const std::uint8_t* data, std::ptrdiff_t stride, int width,
+                                 int height, int degrees) {
+  std::vector<std::uint8_t> out;
+  out.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const bool upright = degrees == 180;
+  for (int v = 0; v < (upright ? height : width); ++v)
+    for (int u = 0; u < (upright ? width : height); ++u) {
+      const int x = degrees == 90 ? v : degrees == 180 ? width - 1 - u : width - 1 - v;
+      const int y = degrees == 90 ? height - 1 - u : degrees == 180 ? height - 1 - v : u;
+      out.push_back(data[y * stride + x]);
+    }
+  return out;
+}
+
+// Frames to the pipe, upright; what is not 8-bit 4:2:0 is made so.
 class Sender {
  public:
-  explicit Sender(int out) : out_(out) {}
+  Sender(int out, int rotation) : out_(out), rotation_(rotation) {}
   void send_frame(const AVFrame& frame, int index) {
     FrameHead head;
     head.kind = Kind::Frame;
-    head.width = frame.width;
-    head.height = frame.height;
+    head.width = rotation_ % 180 != 0 ? frame.height : frame.width;
+    head.height = rotation_ % 180 != 0 ? frame.width : frame.height;
     head.index = index;
     if (frame.best_effort_timestamp != AV_NOPTS_VALUE) head.time = frame.best_effort_timestamp;
     head.coding = coding_of(frame);
@@ -279,15 +295,22 @@ class Sender {
     const AVFrame* shown = &frame;
     if (frame.format != AV_PIX_FMT_YUV420P && frame.format != AV_PIX_FMT_YUVJ420P)
       shown = &convert(frame, head.coding);
+    if (rotation_ != 0 && head.coding.siting != Siting::Center)
+      head.coding.siting = Siting::Unknown;  // it was to the left, and is now above
     send(out_, &head, sizeof head);
     const int cw = (frame.width + 1) / 2;
     const int ch = (frame.height + 1) / 2;
-    send_plane(out_, shown->data[0], shown->linesize[0], frame.width, frame.height);
-    send_plane(out_, shown->data[1], shown->linesize[1], cw, ch);
-    send_plane(out_, shown->data[2], shown->linesize[2], cw, ch);
+    send_turned(shown->data[0], shown->linesize[0], frame.width, frame.height);
+    send_turned(shown->data[1], shown->linesize[1], cw, ch);
+    send_turned(shown->data[2], shown->linesize[2], cw, ch);
   }
 
  private:
+  void send_turned(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height) {
+    if (rotation_ == 0) return send_plane(out_, data, stride, width, height);
+    const auto plane = turned(data, stride, width, height, rotation_);
+    send(out_, plane.data(), plane.size());
+  }
   const AVFrame& convert(const AVFrame& frame, Coding& coding) {
     const auto from = static_cast<AVPixelFormat>(frame.format);
     scaler_.reset(need(sws_getCachedContext(scaler_.release(), frame.width, frame.height, from,
@@ -312,7 +335,7 @@ class Sender {
     return *made_;
   }
 
-  int out_;
+  int out_, rotation_;
   Owned<SwsContext> scaler_;
   Owned<AVFrame> made_{need(av_frame_alloc())};
 };
@@ -429,7 +452,7 @@ void decode(int out, const std::string& path, const Selection& selection) {
   hello = describe(film, *frame);
   hello.counted_frames = choice.counted();
   send(out, &hello, sizeof hello);
-  Sender sender(out);
+  Sender sender(out, hello.rotation);
   int count = 0;
   do {
     int index = 0;

@@ -71,7 +71,7 @@ std::vector<std::uint8_t> find_duplicates(std::span<const FrameSummary> frames,
 struct Kept {
   int frame;  // index into the summaries
   int duration;
-  int time;  // summaries since the clip began, those that the camera dropped counted
+  int time;  // frames since the clip began, those left out or dropped counted
 };
 
 using Clip = std::vector<Kept>;
@@ -80,7 +80,7 @@ using Clip = std::vector<Kept>;
 bool cuts(std::span<const FrameSummary> frames, const Track& track, std::size_t f) {
   const Blob& blob = *track.blob[f];
   const Blob& before = *track.blob[f - 1];
-  if (frames[f].cut_before || distance(blob, before) > track.body) return true;
+  if (distance(blob, before) > track.body) return true;
   if (blob.area > kAreaJump * before.area || before.area > kAreaJump * blob.area) return true;
   std::vector<double> near;
   for (std::size_t k = f > kCutReach ? f - kCutReach : 1;
@@ -90,28 +90,12 @@ bool cuts(std::span<const FrameSummary> frames, const Track& track, std::size_t 
          frames[f].difference > kCutRatio * median(near);
 }
 
-// True where the way from the frame before is twice that of the steps around it, which agree: the
-// camera left one out.
-bool leaps_over_one(const Track& track, const std::vector<std::uint8_t>& repeats, std::size_t f) {
-  if (f < 2 || f + 1 >= track.blob.size() || repeats[f] || repeats[f - 1] || repeats[f + 1])
-    return false;
-  for (std::size_t k = f - 2; k <= f + 1; ++k)
-    if (!track.blob[k]) return false;
-  const double before = distance(*track.blob[f - 1], *track.blob[f - 2]);
-  const double step = distance(*track.blob[f], *track.blob[f - 1]);
-  const double after = distance(*track.blob[f + 1], *track.blob[f]);
-  const double usual = 0.5 * (before + after);
-  const double two = distance(*track.blob[f + 1], *track.blob[f - 2]);
-  return usual > 2 && std::abs(before - after) < 0.25 * usual && step > 1.75 * usual &&
-         step < 2.4 * usual && two > 0.95 * (before + step + after);
-}
-
 std::vector<Clip> split_clips(std::span<const FrameSummary> frames, const Track& track,
                               const std::vector<std::uint8_t>& repeats, const ExtractConfig& config,
                               Extraction& result) {
   std::vector<Clip> clips;
   bool open = false;
-  int run = 0;
+  int run = 0, time = 0;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     Fate& fate = result.fates[f];
     fate = track.fate[f];
@@ -119,10 +103,15 @@ std::vector<Clip> split_clips(std::span<const FrameSummary> frames, const Track&
       open = false;
       continue;
     }
-    if (open && cuts(frames, track, f)) {
+    // The time of frames that the camera left out goes to the sample before, as a duplicate's does.
+    const int lost = frames[f].lost_before;
+    result.missing += lost;
+    if (open && (cuts(frames, track, f) || lost > config.max_repeats)) {
       ++result.cuts;
       open = false;
     }
+    if (open) clips.back().back().duration += lost;
+    time = open ? time + 1 + lost : 0;
     if (open && repeats[f]) {
       fate = Fate::Duplicate;
       if (++run <= config.max_repeats) {
@@ -133,15 +122,7 @@ std::vector<Clip> split_clips(std::span<const FrameSummary> frames, const Track&
       continue;
     }
     run = 0;
-    if (open && leaps_over_one(track, repeats, f)) {
-      ++result.missing;
-      ++clips.back().back().duration;
-      clips.back().push_back({static_cast<int>(f), 1, clips.back().back().time + 2});
-      continue;
-    }
     if (!open) clips.emplace_back();
-    const int time =
-        open ? clips.back().back().time + static_cast<int>(f) - clips.back().back().frame : 0;
     open = true;
     clips.back().push_back({static_cast<int>(f), 1, time});
   }

@@ -52,7 +52,7 @@ struct Extraction {
   std::vector<Fate> fates;  ///< (summaries)
   int clips = 0;
   int cuts = 0;               ///< clips that begin with a leap of the subject or the picture
-  int missing = 0;            ///< frames that the camera dropped, told by a leap of twice the way
+  int missing = 0;            ///< frames that the camera left out, by the time stamps
   double velocity_noise = 0;  ///< px/s, rms of the part removed by smoothing
 
   int count(Fate fate) const noexcept;

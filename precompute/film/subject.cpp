@@ -16,9 +16,11 @@ constexpr double kLikeSize = 0.4;      // a second part this large against the f
 constexpr double kRivalShare = 0.2;    // of the frames; more make the film one of several subjects
 constexpr double kSpeck = 0.1;         // of the usual area; smaller is no subject
 constexpr double kAreaJump = 3;        // from one frame to the next: another part, or a cut
+constexpr double kSwell = 1.25;        // more than its usual area: something has joined it
 constexpr double kStillSeconds = 3;    // a part that stays this long beside another one is a thing
 constexpr double kStillShift = 1.5;    // px that its centre may wander meanwhile
 constexpr double kStillArea = 1.15;    // and its area
+constexpr double kBody = 0.3;          // of the usual area: a part that can hide the subject
 constexpr double kHiddenSeconds = 10;  // longer than this no part covers the subject
 
 double median(std::vector<double> values) {
@@ -178,10 +180,12 @@ int margin(const Rect& box, int width, int height) {
 
 // What is near the subject in one frame and gone into it in the next.
 const Blob* merged_part(const FrameSummary& before, const Blob& subject_before,
-                        const FrameSummary& now, const Blob& subject, double speck) {
-  if (subject.area < 1.25 * subject_before.area) return nullptr;
+                        const FrameSummary& now, const Blob& subject, double speck, double usual) {
+  // A tail that parts from its body and joins it again is no other body: the whole stays usual.
+  if (subject.area < kSwell * std::max(subject_before.area, usual)) return nullptr;
   for (const Blob& part : before.blobs) {
-    if (&part == &subject_before || part.area < speck) continue;
+    if (&part == &subject_before || part.area < (part.touches_border ? speck : kBody * usual))
+      continue;
     if (subject.area < subject_before.area + 0.5 * part.area && !part.touches_border) continue;
     const bool remains = std::any_of(now.blobs.begin(), now.blobs.end(), [&](const Blob& b) {
       return &b != &subject && unlike(b.area, part.area) < 2 &&
@@ -199,34 +203,45 @@ class Meeting {
           int height)
       : frames_(frames), track_(track), fps_(fps), width_(width), height_(height) {}
 
-  Fate step(std::size_t f) {
-    const Blob* blob = track_.blob[f];
-    if (!blob) return Fate::Empty;
-    if (state_ == Fate::Kept) begin(f, *blob);
-    if (state_ != Fate::Kept && over(f, *blob)) state_ = Fate::Kept;
-    if (state_ != Fate::Kept) return state_;
-    return blob->touches_border ? Fate::Border : Fate::Kept;
+  std::vector<Fate> fates() {
+    std::vector<Fate> fates;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      const Blob* blob = track_.blob[f];
+      if (blob && state_ == Fate::Kept) begin(f, *blob);
+      if (blob && state_ != Fate::Kept && over(f, *blob)) state_ = Fate::Kept;
+      // What lasts so long is no meeting: the subject has grown, or was never whole before.
+      if (state_ != Fate::Kept && static_cast<double>(f - since_) > kHiddenSeconds * fps_) {
+        for (std::size_t k = since_; k < f; ++k) fates[k] = alone(k);
+        state_ = Fate::Kept;
+      }
+      fates.push_back(blob && state_ != Fate::Kept ? state_ : alone(f));
+    }
+    return fates;
   }
 
  private:
+  Fate alone(std::size_t f) const {
+    const Blob* blob = track_.blob[f];
+    return !blob ? Fate::Empty : blob->touches_border ? Fate::Border : Fate::Kept;
+  }
+
   void begin(std::size_t f, const Blob& blob) {
-    const Blob* before = f > 0 && !frames_[f].cut_before ? track_.blob[f - 1] : nullptr;
+    const Blob* before = f > 0 ? track_.blob[f - 1] : nullptr;
     if (!before || before->touches_border) return;
-    const Blob* part =
-        merged_part(frames_[f - 1], *before, frames_[f], blob, kSpeck * track_.usual_area);
+    const Blob* part = merged_part(frames_[f - 1], *before, frames_[f], blob,
+                                   kSpeck * track_.usual_area, track_.usual_area);
     // A subject walks up to the border; what joins it to the border in one frame is something else.
-    const bool leapt = blob.touches_border && blob.area > 1.25 * before->area &&
+    const bool leapt = blob.touches_border && blob.area > kSwell * before->area &&
                        margin(before->box, width_, height_) > 0.5 * track_.body;
     if (!part && !leapt) return;
     state_ = leapt || part->touches_border || blob.touches_border ? Fate::Touched : Fate::Hidden;
     since_ = f;
-    area_ = before->area;
+    area_ = std::max(before->area, track_.usual_area);
   }
 
   bool over(std::size_t f, const Blob& blob) const {
-    if (static_cast<double>(f - since_) > kHiddenSeconds * fps_) return true;
     if (blob.touches_border && state_ == Fate::Touched) return false;
-    if (blob.area > 1.25 * area_) return false;
+    if (blob.area > kSwell * area_) return false;
     if (state_ == Fate::Hidden) return true;
     // A hand that let go is still in the way of the next clip until it has left.
     return std::none_of(frames_[f].blobs.begin(), frames_[f].blobs.end(), [&](const Blob& b) {
@@ -332,9 +347,7 @@ Result<Track> follow_subject(std::span<const FrameSummary> frames, double fps, i
       measure_body(track);
     }
   }
-  Meeting meeting(frames, track, fps, width, height);
-  track.fate.reserve(frames.size());
-  for (std::size_t f = 0; f < frames.size(); ++f) track.fate.push_back(meeting.step(f));
+  track.fate = Meeting(frames, track, fps, width, height).fates();
   return track;
 }
 

@@ -22,7 +22,7 @@ struct FrameSummary {
   std::vector<Blob> blobs;          ///< largest first
   double difference = 0;            ///< KeyedFrame::difference
   std::vector<double> ground = {};  ///< (blobs) ground line, film px; empty where not asked for
-  bool cut_before = false;          ///< another clip begins here: a file, a gap in time
+  int lost_before = 0;              ///< frames missing before it, by the time stamps
 };
 
 /// What becomes of a frame.

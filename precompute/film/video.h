@@ -56,7 +56,7 @@ struct Frame {
 };
 
 struct FilmInfo {
-  int width = 0;  ///< as coded; see `rotation`
+  int width = 0;  ///< as shown
   int height = 0;
   std::uint32_t fps_numerator = 30;
   std::uint32_t fps_denominator = 1;
@@ -64,7 +64,8 @@ struct FilmInfo {
   int counted_frames = 0;  ///< packets of the film, where open_bursts() looked; else 0
 
   std::uint32_t time_numerator = 1, time_denominator = 1;  ///< seconds a tick of Frame::time
-  int rotation = 0;  ///< degrees clockwise by which a player turns the picture: 0, 90, 180, 270
+  int rotation =
+      0;  ///< degrees clockwise by which frames were turned, as a player does: 0, 90, 180, 270
   Transfer transfer = Transfer::Sdr;
   Coding coding;             ///< of the first frame
   std::string pixel_format;  ///< as libavutil names it: "yuv420p", "yuv420p10le", ...

@@ -102,8 +102,13 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
                                             {"dropped_hidden", "with the subject hidden"},
                                             {"dropped_short", "in clips that are too short"}});
     if (!dropped.empty()) lines.push_back("left out: " + dropped);
+    const Json pictures = r.value("dropped", Json::object());
+    for (const auto& [reason, shown] : pictures.items())
+      lines.push_back("  " + fixed_text(100 * real_of(shown, "share"), 1) + " % " + reason +
+                      ", for instance frame " + count_text(shown, "frame") + ": " +
+                      shown.value("picture", ""));
     const std::string time =
-        counted(r, {{"cuts", "cuts"}, {"missing", "frames that the camera dropped"}});
+        counted(r, {{"cuts", "cuts"}, {"missing", "frames that the camera left out"}});
     if (!time.empty()) lines.push_back("found: " + time);
     lines.push_back("noise of the velocity " + fixed_text(real_of(r, "velocity_noise"), 1) +
                     " px/s");

@@ -183,6 +183,64 @@ Result<void> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
                     {reinterpret_cast<const char*>(png->data()), png->size()});
 }
 
+/// The keyed frame at `position`, its parts boxed, as a PNG of the work folder.
+Result<void> write_parts(const StageRun& run, const KeyedStore& store, const FilmInfo& info,
+                         int position, std::span<const Blob> parts, const std::string& name) {
+  const auto frames = store.read(position / kChunkFrames);
+  if (!frames) return {};  // damaged meanwhile: cutting will say so
+  const auto png =
+      encode_png(show_parts((*frames)[static_cast<std::size_t>(position % kChunkFrames)],
+                            info.width, info.height, parts));
+  if (!png) return png.error();
+  return write_file(run.project.path(name),
+                    {reinterpret_cast<const char*>(png->data()), png->size()});
+}
+
+/// Several subjects: the refusal names a picture in which each has its number.
+Result<void> refuse_rivals(const StageRun& run, const KeyedStore& store, const FilmInfo& info,
+                           double rate, std::span<const FrameSummary> summaries) {
+  const Rivals rivals = find_rivals(summaries, rate);
+  if (rivals.position < 0) return {};
+  if (auto wrote = write_parts(run, store, info, rivals.position, rivals.parts, "subjects.png");
+      !wrote)
+    return wrote.error();
+  const FrameSummary& frame = summaries[static_cast<std::size_t>(rivals.position)];
+  return Error{ErrorCode::BadContent,
+               run.film + ": several subjects of like size in " + std::to_string(rivals.frames) +
+                   " of " + std::to_string(rivals.present) + " frames; " +
+                   run.project.path("subjects.png") + " shows those of frame " +
+                   std::to_string(frame.index) +
+                   ", numbered; due: one subject, or --subject largest or its number"};
+}
+
+/// For each reason for which frames were dropped the middle one of them, as dropped/REASON.png.
+Result<Json> write_dropped(const StageRun& run, const KeyedStore& store, const FilmInfo& info,
+                           std::span<const FrameSummary> summaries, const Extraction& extraction) {
+  std::error_code ignored;
+  fs::remove_all(run.project.path("dropped"), ignored);
+  Json pictures = Json::object();
+  for (const Fate fate : {Fate::Border, Fate::Touched, Fate::Hidden, Fate::Short}) {
+    const int count = extraction.count(fate);
+    if (count == 0) continue;
+    int seen = 0;
+    std::size_t position = 0;
+    for (std::size_t f = 0; f < extraction.fates.size() && seen <= count / 2; ++f)
+      if (extraction.fates[f] == fate) position = f, ++seen;
+    const std::string name = std::string("dropped/") + fate_name(fate) + ".png";
+    if (auto made = make_folder(run.project.path("dropped")); !made) return made.error();
+    const auto& blobs = summaries[position].blobs;
+    if (auto wrote = write_parts(run, store, info, static_cast<int>(position),
+                                 std::span(blobs).first(1), name);
+        !wrote)
+      return wrote.error();
+    pictures[fate_name(fate)] = {
+        {"frame", summaries[position].index},
+        {"share", static_cast<double>(count) / static_cast<double>(extraction.fates.size())},
+        {"picture", name}};
+  }
+  return pictures;
+}
+
 /// Everything in sprites/ goes; the folder stays.
 Result<void> clear_sprites(const Project& project) {
   const std::string folder = project.path("sprites");
@@ -265,7 +323,8 @@ Json segment_result(const std::string& name, const FilmInfo& info, const ScreenM
           {"dropped_touched", extraction.count(Fate::Touched)},
           {"dropped_hidden", extraction.count(Fate::Hidden)},
           {"dropped_short", extraction.count(Fate::Short)},
-          {"velocity_noise", extraction.velocity_noise}};
+          {"velocity_noise", extraction.velocity_noise},
+          {"draft", stride > 1}};
 }
 
 SubjectChoice subject_of(const std::string& text) {
@@ -309,6 +368,9 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
                              .width = info.width,
                              .height = info.height};
   const double fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
+  if (config.subject.number == SubjectChoice::kOnly)
+    if (auto single = refuse_rivals(run, *store, info, fps / config.stride, *summaries); !single)
+      return single.error();
   const auto extraction = extract(*summaries, fps, name, config);
   if (!extraction)
     return Error{extraction.error().code, run.film + ": " + extraction.error().message};
@@ -321,7 +383,11 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (auto cut = cut_sprites(run, *store, *extraction, *resumed); !cut) return cut.error();
   if (auto sheet = write_contact_sheet(run, *screen, *sampled); !sheet) return sheet.error();
   if (auto wrote = write_file(run.project.path("samples.csv"), table); !wrote) return wrote.error();
-  return segment_result(name, info, *screen, *extraction, stride_of(run.settings));
+  const auto dropped = write_dropped(run, *store, info, *summaries, *extraction);
+  if (!dropped) return dropped.error();
+  Json result = segment_result(name, info, *screen, *extraction, stride_of(run.settings));
+  result["dropped"] = *dropped;
+  return result;
 }
 
 }  // namespace vsprite

@@ -141,7 +141,8 @@ constexpr std::string_view kSolve = " solve build play ";
 
 void add_stage_options(Row& t) {
   t.text("key", "KEY", &Settings::key,
-         "background: auto, plate (standing camera), none, or #RRGGBB", kSegment);
+         "background: auto, plate (standing camera), none, or #RRGGBB",
+         " segment build play doctor ");
   t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
     if (const auto parsed = parse_key(v); !parsed) return parsed.error();
     s.key = v;

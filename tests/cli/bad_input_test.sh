@@ -40,7 +40,13 @@ expect 3 vsprite build blank.mp4
 says "blank.mp4"; one_sentence
 film two two.mp4 100
 expect 3 vsprite build two.mp4
-says "two.mp4"; one_sentence
+says "two.mp4: several subjects"; says "two.work/subjects.png shows those of frame"; one_sentence
+[ -s two.work/subjects.png ] || fail "there is no picture of the subjects"
+expect 0 vsprite segment two.mp4 --subject 2
+expect 0 vsprite segment two.mp4 --subject largest
+expect 3 vsprite segment two.mp4 --subject 3
+says "--subject 3"; one_sentence
+expect 2 vsprite segment two.mp4 --subject both
 film circle circle.mp4 100
 head -c $(($(stat -c %s circle.mp4) / 2)) circle.mp4 >short.mp4
 expect 3 vsprite build short.mp4

@@ -138,17 +138,31 @@ TEST(Subject, OneOfSeveralIsFollowedByItsNumber) {
   EXPECT_EQ(find_rivals(walk(40), 30).position, -1);
 }
 
-TEST(Extract, AFrameThatTheCameraDroppedIsTimeNotSpeed) {
+TEST(Extract, AFrameThatTheCameraLeftOutIsTimeNotSpeed) {
   std::vector<FrameSummary> frames;
   for (int i = 0; i < 40; ++i) {
     const double x = 100 + 4 * (i < 20 ? i : i + 1);
     frames.push_back({i, {blob_at(x, 240)}, 5.0});
   }
+  frames[20].lost_before = 1;
   const auto result = extract(frames, 30, "a.mp4", {});
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->missing, 1);
   EXPECT_EQ(result->rows[19].duration, 2);
   for (const SampleRow& row : result->rows) EXPECT_NEAR(row.velocity_x, 120, 1e-6) << row.frame;
+}
+
+// A body whose tail comes and goes as a part of its own is whole when they are one.
+TEST(Subject, ATailThatPartsAndJoinsHidesNothing) {
+  auto frames = walk(100);
+  for (std::size_t f = 0; f < 100; ++f)
+    if (f % 9 == 0) {
+      const double x = frames[f].blobs[0].anchor_x;
+      frames[f].blobs = {blob_at(x + 4, 240, 30, 40)};
+      add(frames[f], blob_at(x - 18, 240, 10, 40));
+    }
+  const Track track = follow(frames);
+  EXPECT_EQ(std::count(track.fate.begin(), track.fate.end(), Fate::Kept), 100);
 }
 
 TEST(Extract, ADraftShowsEverySampleForTwoFrames) {

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -176,6 +177,43 @@ TEST(Video, ChangedFrameSizeIsRefusedWhereItChanges) {
     EXPECT_NE(count.error().message.find(where + " is 160 x 120 px, the first 320 x 240"),
               std::string::npos)
         << codec << ": " << count.error().message;
+  }
+}
+
+// A phone held upright stores a lying picture and the turn that sets it right.
+TEST(Video, AFilmWithADisplayRotationComesOutUpright) {
+  const TempFolder folder;
+  const testing::SyntheticFilm scene;
+  std::vector<Frame> frames;
+  for (int i = 0; i < 4; ++i) frames.push_back(scene.frame(i, {{60.0 + 20 * i, 80}}));
+  // Lossless, so that turned pictures are the same pictures.
+  const std::string codec = "-c:v libx264 -qp 0 -pix_fmt yuv420p ";
+  const std::string upright = folder.file("upright.mp4");
+  if (!encode_film(frames, upright, codec)) GTEST_SKIP() << "no ffmpeg";
+  struct Turn {
+    const char* filter;  // lays the picture down
+    const char* tag;     // sets it up again: degrees counterclockwise where a stream is copied
+    int clockwise;
+  };
+  constexpr Turn kTurns[] = {
+      {"transpose=2", "270", 90}, {"hflip,vflip", "180", 180}, {"transpose=1", "90", 270}};
+  for (const auto& [filter, degrees, clockwise] : kTurns) {
+    const std::string path = folder.file(std::string(degrees) + ".mp4");
+    const std::string lying = folder.file("lying.mp4");
+    ASSERT_TRUE(encode_film(frames, lying, codec + "-vf " + filter));
+    const std::string turn = "ffmpeg -y -v error -i '" + lying +
+                             "' -c copy -metadata:s:v:0 rotate=" + degrees + " '" + path + "'";
+    ASSERT_EQ(std::system(turn.c_str()), 0);
+    auto film = FilmReader::open(path), due = FilmReader::open(upright);
+    ASSERT_TRUE(film && due);
+    EXPECT_EQ(film->info().rotation, clockwise);
+    EXPECT_EQ(film->info().width, 320);
+    Frame frame, original;
+    for (int i = 0; i < 4; ++i) {
+      ASSERT_TRUE(*film->read(frame) && *due->read(original));
+      EXPECT_EQ(frame.y, original.y) << degrees << " frame " << i;
+      EXPECT_EQ(frame.cb, original.cb) << degrees << " frame " << i;
+    }
   }
 }
 

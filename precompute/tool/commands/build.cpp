@@ -124,7 +124,8 @@ Result<int> run_build(const Settings& settings, Console& console) {
   if (!places) return places.error();
   const auto outcomes = run_range(*places, settings, console, kSegment, kPack);
   if (!outcomes) return outcomes.error();
-  console.text(places->film + " -> " + places->pack + "\n\n" + build_text(*outcomes) + "\n");
+  console.text(places->film + " -> " + places->pack + (settings.draft ? ", a draft" : "") + "\n\n" +
+               build_text(*outcomes) + "\n");
   console.document(build_json(*outcomes));
   console.next("vsprite play " + shell_word(places->pack));
   return 0;

@@ -33,8 +33,8 @@ constexpr Verb kVerbs[] = {
     {"dump", "FILM|PACK|--work DIR", "the numbers behind a sprite, as npy or csv",
      "vsprite dump --work hamster.work --what transitions --format npy -o t.npy", run_dump},
     {"doctor", "[FILM|PACK|--work DIR]",
-     "what is missing on this machine, or broken in a work folder",
-     "vsprite doctor --work hamster.work", run_doctor},
+     "what a film is worth before it is built; what is missing here, or broken in a work folder",
+     "vsprite doctor hamster.mp4", run_doctor},
 };
 
 std::string padded(std::string text, std::size_t width) {
@@ -78,8 +78,8 @@ std::string overview_screen() {
       "(FILM.work)\n"
       "\n"
       "in this order:\n"
-      "  segment      film -> mattes, sprites, velocities           --key auto  --max-size PX "
-      "(256)\n"
+      "  segment      film -> mattes, sprites, velocities           --key auto  --preview N  "
+      "--draft\n"
       "  label        say which jumps look right (optional)         --pairs N (500)  --answers "
       "FILE\n"
       "  train        labels -> classifier                          --threshold X  --folds N (5)\n"

@@ -13,7 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A pack as it is; a film is built first, into the current folder, where `build` would put it.
+/// True where the film was segmented in full before: a draft would throw that away.
+bool stands_in_full(const Settings& settings) {
+  const auto project =
+      Project::look(find_work_folder(settings.work, settings.film, settings.output));
+  const Json* record = project ? project->record("segment") : nullptr;
+  const auto sum = hash_file(settings.film);
+  if (record == nullptr || !sum) return false;
+  const Json made = record->value("settings", Json::object());
+  const Json inputs = record->value("inputs", Json::object());
+  return !made.value("draft", true) && inputs.value("film", Json()) == hex64(*sum);
+}
+
+/// A pack as it is; a film is built first, as a draft where it was never built in full, into the
+/// current folder, where `build` would put it.
 Result<std::string> pack_of(const Settings& settings, Console& console) {
   if (settings.film.empty())
     return Error{ErrorCode::BadSetting, "a pack or a film is due: `vsprite play FILM`"};
@@ -24,6 +37,7 @@ Result<std::string> pack_of(const Settings& settings, Console& console) {
   if (!folder && fs::path(settings.film).extension() != ".vsp") {
     Settings build = settings;
     build.json = false;
+    build.draft |= !stands_in_full(settings);
     if (auto built = run_build(build, console); !built) return built.error();
   }
   return find_pack_path(find_work_folder({}, settings.film, settings.output), settings.film,
