@@ -3,4 +3,6 @@
 target_sources(vsprite_precompute PRIVATE
   control/solve.cpp
   control/response.cpp
+  control/path_cost.cpp
+  control/search.cpp
 )

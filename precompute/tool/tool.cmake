@@ -10,6 +10,8 @@ target_sources(vsprite_precompute PRIVATE
   tool/build_pack.cpp
   tool/files.cpp
   tool/keyed.cpp
+  tool/path_film.cpp
+  tool/path_script.cpp
   tool/pictures.cpp
   tool/project.cpp
   tool/report.cpp
@@ -29,6 +31,7 @@ add_executable(vsprite
   tool/commands/help.cpp
   tool/commands/inspect.cpp
   tool/commands/parse.cpp
+  tool/commands/path.cpp
 )
 target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)
 if(TARGET vsprite_window)
