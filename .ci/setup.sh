@@ -6,7 +6,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build="$here/build/release"
 
 play_packages="g++ cmake ninja-build pkg-config libsdl2-dev libepoxy-dev libpng-dev libzstd-dev
-  libxxhash-dev libopencv-core-dev libopencv-videoio-dev libeigen3-dev libtbb-dev libcli11-dev
+  libxxhash-dev libavformat-dev libavcodec-dev libswscale-dev libeigen3-dev libtbb-dev libcli11-dev
   libtomlplusplus-dev nlohmann-json3-dev ffmpeg"
 test_packages="$play_packages libgtest-dev strace xvfb xauth xdotool"
 

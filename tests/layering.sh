@@ -12,14 +12,15 @@ forbid() {
   fi
 }
 src() { find "$@" -name '*.h' -o -name '*.cpp' | sort; }
-forbid 'opencv|film/|similarity/|control/|synthesis/|tool/|window/|Eigen|nlohmann|CLI|spdlog|toml|tbb' $(src engine)
+forbid 'libav|libsw|film/|similarity/|control/|synthesis/|tool/|window/|Eigen|nlohmann|CLI|spdlog|toml|tbb' $(src engine)
 forbid 'SDL|epoxy|GL|png|zstd|xxh|hwy' $(find engine/include -name '*.h' ! -name sdl.h)
 forbid 'SDL|epoxy|GL' $(find engine/src -name '*.cpp' ! -name draw.cpp ! -name gl.cpp ! -name sdl.cpp -o -name '*.h' -path '*engine/src*')
 forbid 'png\.h' $(find engine/src precompute games -name '*.cpp' ! -path engine/src/png.cpp -o -name '*.h' -path '*precompute*')
-forbid 'opencv' $(src precompute/similarity precompute/control precompute/tool precompute/window) $(find precompute/film -name '*.h')
+forbid 'opencv' $(src engine precompute games)
+forbid 'libav|libsw' $(src precompute games | grep -v precompute/film/decoder.cpp)
 forbid 'similarity/|control/|tool/|window/' $(src precompute/film)
 forbid 'control/|tool/|window/' $(src precompute/similarity)
 forbid 'tool/|window/' $(src precompute/control)
 forbid 'SDL|epoxy|imgui|vsprite/draw|vsprite/sdl' $(src precompute/film precompute/similarity precompute/control precompute/tool)
-forbid 'opencv|film/|similarity/|control/|tool/|window/|\.\./engine|src/' $(src games)
+forbid 'film/|similarity/|control/|tool/|window/|\.\./engine|src/' $(src games)
 exit $bad

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "film/color.h"
 #include "film/light.h"
 
 namespace vsprite {
@@ -21,10 +22,10 @@ float linear_of(int code) { return detail::linear_of_sums()[static_cast<std::siz
 
 Light show(const Frame& frame, const KeyedFrame& keyed, int column, int x, int y) {
   if (x < 0 || y < 0 || x >= frame.width || y >= frame.height) return {{0.05f, 0.05f, 0.05f}};
-  const std::uint8_t* bgr =
-      frame.bgr.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.width) +
-                              static_cast<std::size_t>(x));
-  if (column == 0) return {{linear_of(bgr[2]), linear_of(bgr[1]), linear_of(bgr[0])}};
+  if (column == 0) {
+    const auto rgb = rgb_at(frame, x, y);
+    return {{linear_of(rgb[0]), linear_of(rgb[1]), linear_of(rgb[2])}};
+  }
   const Rect& crop = keyed.crop;
   const std::uint8_t* pixel = nullptr;
   if (x >= crop.x && y >= crop.y && x < crop.x + crop.width && y < crop.y + crop.height)

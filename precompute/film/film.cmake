@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
   film/video.cpp
-  film/coded_size.cpp
+  film/decoder.cpp
+  film/color.cpp
   film/light.cpp
   film/grid.cpp
   film/silhouette.cpp

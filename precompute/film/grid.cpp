@@ -6,25 +6,26 @@
 
 #include <algorithm>
 
+#include "film/color.h"
+
 namespace vsprite::detail {
 
 void make_grid(const Frame& frame, Grid& grid) {
-  grid.width = (frame.width + 1) / 2;
-  grid.height = (frame.height + 1) / 2;
+  grid.width = frame.cell_width();
+  grid.height = frame.cell_height();
   for (auto& plane : grid.plane) plane.resize(grid.cells());
-  const std::size_t stride = static_cast<std::size_t>(frame.width) * 3;
-  const int whole = frame.width / 2;
+  const RgbOfYcc m = rgb_of_ycc(frame.coding);
+  const std::size_t stride = static_cast<std::size_t>(frame.width);
+  std::size_t i = 0;
   for (int y = 0; y < grid.height; ++y) {
-    const std::uint8_t* top = frame.bgr.data() + static_cast<std::size_t>(2 * y) * stride;
+    const std::uint8_t* top = frame.y.data() + static_cast<std::size_t>(2 * y) * stride;
     const std::uint8_t* low = 2 * y + 1 < frame.height ? top + stride : top;
-    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width);
-    for (int c = 0; c < 3; ++c) {
-      std::uint16_t* out = grid.plane[c].data() + at;
-      const std::uint8_t* a = top + c;
-      const std::uint8_t* b = low + c;
-      for (int x = 0; x < whole; ++x, a += 6, b += 6)
-        out[x] = static_cast<std::uint16_t>(a[0] + a[3] + b[0] + b[3]);
-      if (whole < grid.width) out[whole] = static_cast<std::uint16_t>(2 * (a[0] + b[0]));
+    for (int x = 0; x < grid.width; ++x, ++i) {
+      const int left = 2 * x;
+      const int right = std::min(left + 1, frame.width - 1);
+      const int sum = top[left] + top[right] + low[left] + low[right];
+      const auto rgb = m.sums(sum, frame.cb[i], frame.cr[i], 4);
+      for (std::size_t c = 0; c < 3; ++c) grid.plane[2 - c][i] = static_cast<std::uint16_t>(rgb[c]);
     }
   }
 }

@@ -3,8 +3,8 @@
 //
 // film/grid.h - pictures on the chroma grid, where one cell is 2 x 2 pixels.
 //
-// Films carry colour at half resolution (4:2:0). The decoder repeats each colour over its cell, so
-// the sum over a cell is what the film really holds; everything that compares colours works here.
+// Films carry colour at half resolution (4:2:0), so the sum of Y over a cell and the cell's Cb, Cr
+// are what the film really holds; everything that compares colours works here.
 #pragma once
 
 #include <cstdint>

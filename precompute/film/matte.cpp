@@ -12,9 +12,11 @@
 #include "film/matte.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
+#include "film/color.h"
 #include "film/light.h"
 #include "film/unmix.h"
 
@@ -28,9 +30,13 @@ using detail::Silhouette;
 constexpr int kMostBlobs = 32;
 constexpr float kDetailRidge = 1e-4f;
 
-// Four times the encoded luma, 0..1020: an index of the table of sums.
-std::size_t luma_index(const std::uint8_t* bgr) {
-  return static_cast<std::size_t>((29 * bgr[0] + 150 * bgr[1] + 77 * bgr[2] + 32) / 64);
+// Four times the encoded luma 0..255 of each Y of a film: an index of the table of sums.
+std::array<std::uint16_t, 256> luma_sums(const Coding& coding) {
+  std::array<std::uint16_t, 256> table{};
+  const RgbOfYcc m = rgb_of_ycc(coding);
+  for (int y = 0; y < 256; ++y)
+    table[static_cast<std::size_t>(y)] = static_cast<std::uint16_t>(m.sums(4 * y, 128, 128, 4)[0]);
+  return table;
 }
 
 // The two cells that a pixel lies between, and the share of the second.
@@ -77,6 +83,9 @@ struct Keyer::Impl {
   Silhouette silhouette;
   Patch patch;
 
+  std::array<std::uint16_t, 256> luma;  // of the film's Y
+  YccOfRgb weights;
+
   // Maps of pixels over the patch.
   int left = 0, top = 0, width = 0, height = 0;  // film pixels
   std::vector<float> alpha;                      // 0..1, clipped
@@ -92,21 +101,22 @@ struct Keyer::Impl {
     return static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(patch.width) +
            static_cast<std::size_t>(x / 2);
   }
-  const std::uint8_t* frame_at(const Frame& frame, int x, int y) const {
-    return frame.bgr.data() +
-           3 * (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
-                static_cast<std::size_t>(left + x));
+  // Of the frame or the plate.
+  std::size_t luma_at(const Frame& frame, int x, int y) const {
+    return luma[frame.y[static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
+                        static_cast<std::size_t>(left + x)]];
   }
   // Linear luma of the plate at a pixel, with the frame's drift.
   float plate_luma(int x, int y) const {
-    const std::uint8_t* bgr =
-        screen->plate.data() +
-        3 * (static_cast<std::size_t>(top + y) * static_cast<std::size_t>(screen->width) +
-             static_cast<std::size_t>(left + x));
-    const float code = static_cast<float>(luma_index(bgr)) + 4 * drift_luma[cell(x, y)];
+    const std::size_t at =
+        static_cast<std::size_t>(top + y) * static_cast<std::size_t>(screen->width) +
+        static_cast<std::size_t>(left + x);
+    const float code = 4 * (luma_scale * (static_cast<float>(screen->luma[at]) - luma_black) +
+                            drift_luma[cell(x, y)]);
     return detail::linear_of_sums()[static_cast<std::size_t>(
         std::clamp(code + 0.5f, 0.0f, 1020.0f))];
   }
+  float luma_scale, luma_black;   // of ScreenModel::luma, to code values 0..255
   std::vector<float> drift_luma;  // cells, code values
 
   void measure_guide(const Frame& frame);
@@ -132,8 +142,9 @@ void Keyer::Impl::measure_guide(const Frame& frame) {
       const double u = detail::scaled(patch.left + cx, silhouette.grid.width);
       const double v = detail::scaled(patch.top + cy, silhouette.grid.height);
       const auto& drift = silhouette.drift;
-      drift_luma[i] = static_cast<float>(0.114 * drift.at(0, u, v) + 0.587 * drift.at(1, u, v) +
-                                         0.299 * drift.at(2, u, v));
+      drift_luma[i] = weights.blue * static_cast<float>(drift.at(0, u, v)) +
+                      weights.green * static_cast<float>(drift.at(1, u, v)) +
+                      weights.red * static_cast<float>(drift.at(2, u, v));
       // Cells with nothing but 0 or nothing but 1 around need no detail.
       float low = 1;
       float high = 0;
@@ -150,7 +161,7 @@ void Keyer::Impl::measure_guide(const Frame& frame) {
       int count = 0;
       for (int y = 2 * cy; y < std::min(2 * cy + 2, height); ++y)
         for (int x = 2 * cx; x < std::min(2 * cx + 2, width); ++x, ++count)
-          sum += light[luma_index(frame_at(frame, x, y))] - plate_luma(x, y);
+          sum += light[luma_at(frame, x, y)] - plate_luma(x, y);
       guide[i] = sum / static_cast<float>(std::max(count, 1));
     }
 }
@@ -196,9 +207,10 @@ void Keyer::Impl::raise_alpha(const Frame& frame) {
         continue;
       }
       const Bilinear up(between(x, patch.width), rows, patch.width);
-      const float g = light[luma_index(frame_at(frame, x, y))] - plate_luma(x, y);
+      const float g = light[luma_at(frame, x, y)] - plate_luma(x, y);
       const float a = up.of(patch.alpha) + up.of(gain) * (g - up.of(guide));
-      // Before a plain plate shadows and the codec's smear look like thin subject: they are taken off.
+      // Before a plain plate shadows and the codec's smear look like thin subject: they are taken
+      // off.
       const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
       const float clear = (a - shade) / (1 - shade);
       out = clear < config.clip_low ? 0.0f : clear > config.clip_high ? 1.0f : clear;
@@ -358,12 +370,10 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
       if (code == 0) continue;
       result.labels[to] = static_cast<std::uint8_t>(labels[c]);
       std::uint8_t* out = result.straight.rgba.data() + 4 * to;
-      const std::uint8_t* bgr = frame_at(frame, x, y);
       out[3] = code;
       if (depth[c] > 30) {
-        out[0] = bgr[2];
-        out[1] = bgr[1];
-        out[2] = bgr[0];
+        const auto rgb = rgb_at(frame, left + x, top + y);
+        std::copy(rgb.begin(), rgb.end(), out);
         continue;
       }
       // F from the cells around, each as far as it is covered.
@@ -382,29 +392,27 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
       for (float& value : f) value /= total;
       // Brightness of the pixel itself, trusted as far as it is covered: what its luma is above
       // that of the mixture expected, in code values.
-      const std::uint8_t own_bgr[3] = {detail::encoded_of(f[2]), detail::encoded_of(f[1]),
-                                       detail::encoded_of(f[0])};
-      const float mixed = a * light[luma_index(own_bgr)] + (1 - a) * plate_luma(x, y);
+      std::uint8_t own_rgb[3];
+      for (int p = 0; p < 3; ++p) own_rgb[p] = detail::encoded_of(f[p]);
+      const float own_luma = 4 * (weights.red * static_cast<float>(own_rgb[0]) +
+                                  weights.green * static_cast<float>(own_rgb[1]) +
+                                  weights.blue * static_cast<float>(own_rgb[2]));
+      const float mixed =
+          a * light[static_cast<std::size_t>(own_luma + 0.5f)] + (1 - a) * plate_luma(x, y);
       const float expected = static_cast<float>(4 * detail::encoded_of(mixed));
-      const float lift = 0.25f * a * a * (static_cast<float>(luma_index(bgr)) - expected);
+      const float lift = 0.25f * a * a * (static_cast<float>(luma_at(frame, x, y)) - expected);
       for (int p = 0; p < 3; ++p)
         out[p] = static_cast<std::uint8_t>(
-            std::clamp(static_cast<float>(own_bgr[2 - p]) + lift + 0.5f, 0.0f, 255.0f));
+            std::clamp(static_cast<float>(own_rgb[p]) + lift + 0.5f, 0.0f, 255.0f));
     }
   }
 }
 
 // Key `none`: everything is subject, and the frame's border is not its edge.
 void Keyer::Impl::whole_frame(const Frame& frame, KeyedFrame& result) const {
-  const std::size_t n = frame.bgr.size() / 3;
+  const std::size_t n = frame.y.size();
   result.crop = {0, 0, frame.width, frame.height};
-  result.straight.width = frame.width;
-  result.straight.height = frame.height;
-  result.straight.rgba.resize(4 * n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t p = 0; p < 3; ++p) result.straight.rgba[4 * i + p] = frame.bgr[3 * i + 2 - p];
-    result.straight.rgba[4 * i + 3] = 255;
-  }
+  result.straight = to_image(frame);
   result.labels.assign(n, 1);
   Blob blob;
   blob.box = result.crop;
@@ -417,19 +425,20 @@ void Keyer::Impl::whole_frame(const Frame& frame, KeyedFrame& result) const {
 
 namespace {
 
+// Of luma, in code values.
 double mean_difference(const Frame& a, const Frame& b, const Rect& box) {
-  if (a.bgr.size() != b.bgr.size() || box.width < 1 || box.height < 1) return 0;
+  if (a.y.size() != b.y.size() || box.width < 1 || box.height < 1) return 0;
   std::uint64_t sum = 0;
   for (int y = box.y; y < box.y + box.height; ++y) {
-    const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) +
-                                static_cast<std::size_t>(box.x));
-    const std::size_t n = 3 * static_cast<std::size_t>(box.width);
+    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) +
+                           static_cast<std::size_t>(box.x);
+    const std::size_t n = static_cast<std::size_t>(box.width);
     std::uint32_t row = 0;
     for (std::size_t i = 0; i < n; ++i)
-      row += static_cast<std::uint32_t>(std::abs(a.bgr[at + i] - b.bgr[at + i]));
+      row += static_cast<std::uint32_t>(std::abs(a.y[at + i] - b.y[at + i]));
     sum += row;
   }
-  return static_cast<double>(sum) / (3.0 * box.width * box.height);
+  return static_cast<double>(sum) / (1.0 * box.width * box.height);
 }
 
 }  // namespace
@@ -437,6 +446,10 @@ double mean_difference(const Frame& a, const Frame& b, const Rect& box) {
 Keyer::Keyer(const ScreenModel& screen, const MatteConfig& config)
     : impl_(std::make_unique<Impl>()) {
   impl_->screen = &screen;
+  impl_->luma = luma_sums(screen.plate.coding);
+  impl_->luma_scale = 1 / (64 * ycc_of_rgb(screen.plate.coding).luma);
+  impl_->luma_black = 64 * ycc_of_rgb(screen.plate.coding).black;
+  impl_->weights = ycc_of_rgb(screen.plate.coding);
   impl_->config = config;
 }
 

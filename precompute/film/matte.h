@@ -41,8 +41,7 @@ struct KeyedFrame {
   Image straight;                    ///< (crop) straight-alpha RGBA, screen's share removed
   std::vector<std::uint8_t> labels;  ///< (crop) 0 = none, else the blob's label
   std::vector<Blob> blobs;           ///< largest first, at most 32
-  double difference =
-      0;  ///< mean |frame - frame before| over the subject's box, code values (duplicates)
+  double difference = 0;  ///< mean |Y - Y of the frame before| over the subject's box (duplicates)
 };
 
 /// Keys one frame. Pure and deterministic; any number of threads, one Keyer each. Making one is

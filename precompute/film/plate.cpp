@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "film/color.h"
 #include "film/light.h"
 #include "film/silhouette.h"
 
@@ -244,48 +245,65 @@ void find_bare(const std::vector<Grid>& grids, Bare& bare) {
 void average_bare(std::span<const Frame> frames, const std::vector<Grid>& grids, const Bare& bare,
                   ScreenModel& screen) {
   const std::size_t cells = grids[0].cells();
-  const int gw = grids[0].width;
   std::vector<std::uint16_t> count(cells);
   std::vector<std::uint32_t> sums[3];
   for (int p = 0; p < 3; ++p) sums[p].assign(cells, 0);
-  std::vector<std::uint32_t> pixels(frames[0].bgr.size());
   const std::size_t row = static_cast<std::size_t>(screen.width);
+  std::vector<std::uint32_t> luma(frames[0].y.size());
+  std::vector<std::uint32_t> blue(cells);
+  std::vector<std::uint32_t> red(cells);
   for (std::size_t f = 0; f < frames.size(); ++f) {
     for (std::size_t i = 0; i < cells; ++i) {
       if (!bare.in[f].in[i]) continue;
       ++count[i];
       for (int p = 0; p < 3; ++p) sums[p][i] += grids[f].plane[p][i];
+      blue[i] += frames[f].cb[i];
+      red[i] += frames[f].cr[i];
     }
     for (int y = 0; y < screen.height; ++y) {
       const std::uint8_t* in = bare.in[f].row(y / 2);
       for (int x = 0; x < screen.width; ++x) {
-        if (!in[x / 2]) continue;
-        const std::size_t at =
-            3 * (static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x));
-        for (std::size_t c = 0; c < 3; ++c) pixels[at + c] += frames[f].bgr[at + c];
+        const std::size_t at = static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x);
+        if (in[x / 2]) luma[at] += frames[f].y[at];
       }
     }
   }
   std::size_t hidden = 0;
-  for (std::size_t i = 0; i < cells; ++i) hidden += count[i] == 0;
-  screen.hidden = static_cast<float>(static_cast<double>(hidden) / static_cast<double>(cells));
-  for (int p = 0; p < 3; ++p) {
-    screen.cells[p].resize(cells);
-    for (std::size_t i = 0; i < cells; ++i)
+  Frame& plate = screen.plate;
+  plate.resize(screen.width, screen.height);
+  plate.coding = frames[0].coding;
+  screen.luma.resize(plate.y.size());
+  const YccOfRgb to_ycc = ycc_of_rgb(plate.coding);
+  const auto mean = [](std::uint32_t sum, std::uint32_t n) {
+    return static_cast<std::uint8_t>((sum + n / 2) / n);
+  };
+  for (int p = 0; p < 3; ++p) screen.cells[p].resize(cells);
+  std::vector<std::uint8_t> centre_luma(cells);
+  for (std::size_t i = 0; i < cells; ++i) {
+    for (int p = 0; p < 3; ++p)
       screen.cells[p][i] =
           count[i] ? 0.25f * static_cast<float>(sums[p][i]) / count[i] : bare.centre[p][i];
+    if (count[i]) {
+      plate.cb[i] = mean(blue[i], count[i]);
+      plate.cr[i] = mean(red[i], count[i]);
+      continue;
+    }
+    ++hidden;
+    const auto codes = to_ycc.codes(bare.centre[2][i], bare.centre[1][i], bare.centre[0][i]);
+    centre_luma[i] = codes[0];
+    plate.cb[i] = codes[1];
+    plate.cr[i] = codes[2];
   }
-  screen.plate.resize(pixels.size());
+  screen.hidden = static_cast<float>(static_cast<double>(hidden) / static_cast<double>(cells));
   for (int y = 0; y < screen.height; ++y)
     for (int x = 0; x < screen.width; ++x) {
-      const std::size_t i = static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(gw) +
-                            static_cast<std::size_t>(x / 2);
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x));
-      for (std::size_t c = 0; c < 3; ++c)
-        screen.plate[at + c] =
-            count[i]
-                ? static_cast<std::uint8_t>((pixels[at + c] + count[i] / 2u) / count[i])
-                : static_cast<std::uint8_t>(std::clamp(bare.centre[c][i] + 0.5f, 0.0f, 255.0f));
+      const std::size_t i =
+          static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(grids[0].width) +
+          static_cast<std::size_t>(x / 2);
+      const std::size_t at = static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x);
+      plate.y[at] = count[i] ? mean(luma[at], count[i]) : centre_luma[i];
+      screen.luma[at] = static_cast<std::uint16_t>(
+          count[i] ? (64 * luma[at] + count[i] / 2u) / count[i] : 64u * centre_luma[i]);
     }
 }
 
@@ -322,13 +340,11 @@ void measure_noise(const std::vector<Grid>& grids, const Bare& bare, ScreenModel
 
 // Median of each channel over the plate.
 void measure_color(ScreenModel& screen) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::uint64_t bins[256] = {};
-    for (std::size_t i = c; i < screen.plate.size(); i += 3) ++bins[screen.plate[i]];
-    std::uint64_t seen = 0;
-    int value = 0;
-    while (value < 255 && 2 * (seen += bins[value]) < screen.plate.size() / 3) ++value;
-    screen.color[2 - c] = static_cast<float>(value);
+  for (int c = 0; c < 3; ++c) {
+    std::vector<float> values = screen.cells[2 - c];
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    screen.color[c] = *middle;
   }
 }
 

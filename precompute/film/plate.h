@@ -39,7 +39,8 @@ struct ScreenModel {
   KeyKind kind = KeyKind::Color;
   std::string reason;  ///< why this kind: one sentence for the report
   int width = 0, height = 0;
-  std::vector<std::uint8_t> plate;  ///< (height, width) BGR
+  Frame plate;
+  std::vector<std::uint16_t> luma;  ///< (height, width) 64 x Y of the plate, finer than its 8 bits
   float color[3] = {};              ///< median screen colour, R G B, 0..255
   float noise[3] = {};              ///< rms over time of the bare screen, Y Cb Cr, code values
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMargin = 4;              // cells around the silhouette
 constexpr float kSpill = 0.05f;         // share of the plate in a foreground near it, and at the
-constexpr float kRimSpill = 0.07f;      // rim, where screen light falls from behind
+constexpr float kRimSpill = 0.08f;      // rim, where screen light falls from behind
 constexpr float kShading = 0.1f;        // relative sigma of the foreground's brightness
 constexpr float kHue = 0.04f;           // sigma of its colour, relative to its luma
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one

@@ -1,16 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// The decoder child and the pipe to it. The child is forked, not executed: it needs no program of
-// its own, and it ends with _exit, so that nothing of the parent's is torn down twice. Records on
-// the pipe: one Hello, then a FrameHead and its pixels for each frame, then a FrameHead of kind
-// End.
+// The parent's end of the pipe: what the decoder (film/decoder.h) sends, and what became of it.
 #include "film/video.h"
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,168 +14,32 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <new>
-#include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
-#include <optional>
 
-#include "film/coded_size.h"
+#include "film/decoder.h"
 
 namespace vsprite {
+
+using detail::FrameHead;
+using detail::Hello;
+using detail::kExitNoMemory;
+using detail::Kind;
+using detail::Selection;
+
+void Frame::resize(int w, int h) {
+  width = w;
+  height = h;
+  y.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  cb.resize(static_cast<std::size_t>(cell_width()) * static_cast<std::size_t>(cell_height()));
+  cr.resize(cb.size());
+}
+
 namespace {
 
 constexpr int kMaxSide = 16384;
 constexpr int kHangMs = 30'000;
 constexpr int kPipeBytes = 1 << 20;
-constexpr rlim_t kChildBytes = rlim_t{4} << 30;  // beyond what the parent had mapped
-constexpr int kExitNoMemory = 71;
-
-// Containers in which people keep films. Without the list FFmpeg plays text files as ANSI art and
-// follows play lists to other files.
-constexpr char kCaptureOptions[] =
-    "protocol_whitelist;file|format_whitelist;mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,"
-    "mpeg,"
-    "mpegvideo,flv,ogg,asf,gif,yuv4mpegpipe,nut,h264,hevc,m4v,ivf,mxf,dv,rm,swf,obu,apng,webp_pipe";
-
-enum class Kind : std::int32_t { Film, NoFilm, Frame, Resized, End, OutOfMemory };
-
-struct Hello {
-  Kind kind;
-  std::int32_t width, height, count;
-  double fps;
-};
-
-struct FrameHead {
-  Kind kind;
-  std::int32_t width, height;
-};
-
-// --- child ---------------------------------------------------------------------------------------
-
-bool write_all(int fd, const void* data, std::size_t size) {
-  const char* at = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t n = write(fd, at, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n;
-    size -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-void send_frame(int fd, const cv::Mat& image) {
-  const FrameHead head{Kind::Frame, image.cols, image.rows};
-  if (!write_all(fd, &head, sizeof head)) _exit(0);
-  const std::size_t row = static_cast<std::size_t>(image.cols) * 3;
-  if (image.isContinuous()) {
-    if (!write_all(fd, image.data, row * static_cast<std::size_t>(image.rows))) _exit(0);
-    return;
-  }
-  for (int y = 0; y < image.rows; ++y)
-    if (!write_all(fd, image.ptr(y), row)) _exit(0);
-}
-
-// Leaves the child with nothing of the parent's but the pipe, and a bound on its memory.
-void isolate(int& out, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(0);
-  std::signal(SIGINT, SIG_IGN);  // the parent decides when work ends
-  for (int s : {SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
-    std::signal(s, SIG_DFL);
-  const int null = open("/dev/null", O_RDWR);
-  for (int fd : {0, 1, 2}) dup2(null, fd);
-  if (out != 3) dup2(out, 3);
-  out = 3;
-  close_range(4, ~0u, 0);
-  rlimit limit{};
-  rlim_t mapped = 0;
-  if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
-    unsigned long pages = 0;
-    if (std::fscanf(statm, "%lu", &pages) == 1)
-      mapped = rlim_t{pages} * static_cast<rlim_t>(sysconf(_SC_PAGESIZE));
-    std::fclose(statm);
-  }
-  limit.rlim_cur = limit.rlim_max = mapped + kChildBytes;
-  setrlimit(RLIMIT_AS, &limit);
-  limit.rlim_cur = limit.rlim_max = 0;
-  setrlimit(RLIMIT_CORE, &limit);
-}
-
-// Reads the film's packets beside its frames, undecoded. Packet k is looked at before frame k is
-// decoded: where the size changes the coding starts anew, so that k is the same for both.
-class SizeWatch {
- public:
-  explicit SizeWatch(const std::string& name) : packets_(name, cv::CAP_FFMPEG) {
-    open_ = packets_.isOpened() && packets_.set(cv::CAP_PROP_FORMAT, -1);
-  }
-  /// The next packet's size where it differs from the first one's.
-  std::optional<detail::CodedSize> changed() {
-    if (!open_ || !packets_.read(packet_) || !packet_.isContinuous()) return std::nullopt;
-    const auto size = detail::find_coded_size({packet_.data, packet_.total() * packet_.elemSize()});
-    if (!size) return std::nullopt;
-    if (!first_) first_ = size;
-    return *size == *first_ ? std::nullopt : size;
-  }
-
- private:
-  cv::VideoCapture packets_;
-  cv::Mat packet_;
-  std::optional<detail::CodedSize> first_;
-  bool open_ = false;
-};
-
-void decode(int out, const std::string& path) {
-  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 1);
-  setenv("OPENCV_FFMPEG_CAPTURE_OPTIONS", kCaptureOptions, 1);
-  cv::setNumThreads(1);
-  // A name with a colon must not be taken for a protocol.
-  const std::string name = path.front() == '/' ? path : "./" + path;
-  cv::VideoCapture capture(name, cv::CAP_FFMPEG);
-  cv::Mat image;
-  if (!capture.isOpened() || !capture.read(image) || image.type() != CV_8UC3) {
-    const Hello none{Kind::NoFilm, 0, 0, 0, 0};
-    write_all(out, &none, sizeof none);
-    return;
-  }
-  const double count = capture.get(cv::CAP_PROP_FRAME_COUNT);
-  const bool sane = count >= 1 && count < 1e9;
-  const Hello hello{Kind::Film, image.cols, image.rows, sane ? static_cast<int>(count) : 0,
-                    capture.get(cv::CAP_PROP_FPS)};
-  if (!write_all(out, &hello, sizeof hello)) return;
-  SizeWatch watch(name);
-  watch.changed();
-  do {
-    send_frame(out, image);
-    if (const auto size = watch.changed()) {
-      const FrameHead resized{Kind::Resized, size->width, size->height};
-      write_all(out, &resized, sizeof resized);
-      return;
-    }
-  } while (capture.read(image) && image.type() == CV_8UC3);
-  const FrameHead end{Kind::End, 0, 0};
-  write_all(out, &end, sizeof end);
-}
-
-[[noreturn]] void child_main(int out, pid_t parent, const std::string& path) {
-  isolate(out, parent);
-  int status = 0;
-  try {
-    decode(out, path);
-  } catch (const std::bad_alloc&) {
-    status = kExitNoMemory;
-  } catch (const cv::Exception& e) {
-    status = e.code == cv::Error::StsNoMem ? kExitNoMemory : 70;
-  } catch (...) {
-    status = 70;
-  }
-  _exit(status);
-}
-
-// --- parent --------------------------------------------------------------------------------------
 
 // The nearest rate in common use, else thousandths of a frame a second.
 void set_rate(double fps, FilmInfo& info) {
@@ -225,6 +84,9 @@ struct FilmReader::Impl {
   bool ended = false;  // all frames were handed out
 
   ~Impl() { stop(); }
+
+  Result<void> start(const std::string& film, const Selection& selection);
+  Result<bool> pull_frame(const FrameHead& head, Frame& frame);
 
   // Ends and reaps the child; returns its wait status, or 0 if there was none.
   int stop() {
@@ -320,25 +182,24 @@ Result<void> check_file(const std::string& path) {
 
 }  // namespace
 
-Result<FilmReader> FilmReader::open(const std::string& path) {
-  if (auto checked = check_file(path); !checked) return checked.error();
-  auto impl = std::make_unique<Impl>();
-  impl->path = path;
+// Forks the decoder and hears its Hello.
+Result<void> FilmReader::Impl::start(const std::string& film, const Selection& selection) {
+  if (auto checked = check_file(film); !checked) return checked.error();
+  path = film;
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return Error{ErrorCode::CannotRead, path + ": no pipe to a decoder: " + std::strerror(errno)};
   fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);  // a refusal costs speed only
   const pid_t parent = getpid();
-  impl->child = fork();
-  if (impl->child == 0) child_main(ends[1], parent, path);
+  child = fork();
+  if (child == 0) detail::decode_in_child(ends[1], parent, path, selection);
   close(ends[1]);
-  impl->fd = ends[0];
-  if (impl->child < 0)
+  fd = ends[0];
+  if (child < 0)
     return Error{ErrorCode::CannotRead, path + ": no decoder process: " + std::strerror(errno)};
 
   Hello hello{};
-  if (const Pulled how = impl->pull(&hello, sizeof hello); how != Pulled::All)
-    return impl->failure(how);
+  if (const Pulled how = pull(&hello, sizeof hello); how != Pulled::All) return failure(how);
   if (hello.kind != Kind::Film)
     return Error{ErrorCode::BadFormat,
                  path + ": no film: not one frame can be decoded; due: a video file such as MP4"};
@@ -347,10 +208,54 @@ Result<FilmReader> FilmReader::open(const std::string& path) {
                                                " x " + std::to_string(hello.height) +
                                                " px; due: at most " + std::to_string(kMaxSide) +
                                                " px a side"};
-  impl->info.width = hello.width;
-  impl->info.height = hello.height;
-  impl->info.claimed_frames = hello.count;
-  set_rate(hello.fps, impl->info);
+  info.width = hello.width;
+  info.height = hello.height;
+  info.claimed_frames = hello.claimed_frames;
+  info.time_numerator = hello.time_numerator;
+  info.time_denominator = hello.time_denominator;
+  info.rotation = hello.rotation;
+  info.transfer = hello.transfer;
+  info.coding = hello.coding;
+  info.pixel_format = hello.pixel_format;
+  info.bits = hello.bits;
+  info.interlaced = hello.interlaced != 0;
+  info.has_alpha = hello.has_alpha != 0;
+  set_rate(hello.fps, info);
+  return {};
+}
+
+// The planes that follow a head.
+Result<bool> FilmReader::Impl::pull_frame(const FrameHead& head, Frame& frame) {
+  if (head.width != info.width || head.height != info.height) {
+    stop();
+    return Error{ErrorCode::CorruptData,
+                 path + ": frame " + std::to_string(next) + " is " + std::to_string(head.width) +
+                     " x " + std::to_string(head.height) + " px, the first " +
+                     std::to_string(info.width) + " x " + std::to_string(info.height) +
+                     "; due: one size throughout; cut the film where the size changes"};
+  }
+  try {
+    frame.resize(head.width, head.height);
+  } catch (const std::bad_alloc&) {
+    stop();
+    return Error{ErrorCode::OutOfMemory, path + ": a frame of " + std::to_string(head.width) +
+                                             " x " + std::to_string(head.height) +
+                                             " px does not fit in memory"};
+  }
+  for (auto* plane : {&frame.y, &frame.cb, &frame.cr})
+    if (const Pulled how = pull(plane->data(), plane->size()); how != Pulled::All)
+      return failure(how);
+  frame.index = head.index;
+  frame.coding = head.coding;
+  frame.time = head.time;
+  frame.damaged = head.damaged != 0;
+  ++next;
+  return true;
+}
+
+Result<FilmReader> FilmReader::open(const std::string& path) {
+  auto impl = std::make_unique<Impl>();
+  if (auto started = impl->start(path, {}); !started) return started.error();
   return FilmReader(std::move(impl));
 }
 
@@ -361,31 +266,32 @@ Result<bool> FilmReader::read(Frame& frame) {
   if (const Pulled how = film.pull(&head, sizeof head); how != Pulled::All)
     return film.failure(how);
   if (head.kind == Kind::End) return film.finish();
-  if (head.kind == Kind::Resized || head.width != film.info.width ||
-      head.height != film.info.height) {
-    film.stop();
-    return Error{ErrorCode::CorruptData,
-                 film.path + ": frame " + std::to_string(film.next) + " is " +
-                     std::to_string(head.width) + " x " + std::to_string(head.height) +
-                     " px, the first " + std::to_string(film.info.width) + " x " +
-                     std::to_string(film.info.height) +
-                     "; due: one size throughout; cut the film where the size changes"};
+  return film.pull_frame(head, frame);
+}
+
+Result<std::vector<Frame>> sample_frames(const std::string& path, int wanted) {
+  constexpr std::int64_t kRoom = std::int64_t{400} << 20;
+  constexpr std::size_t kLeast = 16;
+  std::vector<Frame> frames;
+  for (const auto mode : {Selection::KeyFrames, Selection::Spread}) {
+    FilmReader::Impl film;
+    if (auto started = film.start(path, {mode, wanted}); !started) return started.error();
+    const std::int64_t bytes = std::int64_t{3} * film.info.width * film.info.height / 2;
+    const auto room = std::max<std::int64_t>(kRoom / std::max<std::int64_t>(bytes, 1), 16);
+    int stride = 1;
+    if (room < wanted) stride = static_cast<int>((wanted + room - 1) / room);
+    frames.clear();
+    for (Frame frame;;) {
+      FrameHead head{};
+      if (const Pulled how = film.pull(&head, sizeof head); how != Pulled::All)
+        return film.failure(how);
+      if (head.kind == Kind::End) break;
+      if (auto pulled = film.pull_frame(head, frame); !pulled) return pulled.error();
+      if ((film.next - 1) % stride == 0) frames.push_back(frame);
+    }
+    if (frames.size() >= std::min(kLeast, static_cast<std::size_t>(wanted) / 2)) break;
   }
-  const std::size_t bytes =
-      static_cast<std::size_t>(head.width) * static_cast<std::size_t>(head.height) * 3;
-  try {
-    frame.bgr.resize(bytes);
-  } catch (const std::bad_alloc&) {
-    film.stop();
-    return Error{ErrorCode::OutOfMemory, film.path + ": a frame of " + std::to_string(bytes) +
-                                             " bytes does not fit in memory"};
-  }
-  if (const Pulled how = film.pull(frame.bgr.data(), bytes); how != Pulled::All)
-    return film.failure(how);
-  frame.width = head.width;
-  frame.height = head.height;
-  frame.index = film.next++;
-  return true;
+  return frames;
 }
 
 FilmReader::FilmReader(std::unique_ptr<Impl> impl) noexcept : impl_(std::move(impl)) {}

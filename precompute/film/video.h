@@ -1,9 +1,14 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// film/video.h - a film as a run of frames, decoded once, in order, in a child process.
+// film/video.h - a film as a run of frames, as they were coded, decoded in a child process.
 //
-// OpenCV's FFmpeg backend runs in a forked child with limits; frames arrive over a pipe. A decoder
+// A film carries brightness (Y) for every pixel and colour (Cb, Cr) for every 2 x 2 cell; the keyer
+// wants exactly that, and blowing it up to RGB costs more than keying. So a Frame holds the planes.
+//
+// libavformat and libavcodec are called directly: OpenCV's VideoCapture hands out BGR only, and
+// neither time stamps, nor rotation, colour tags, field order or the size of single frames can be
+// reached through it. They run in a forked child with limits; frames arrive over a pipe. A decoder
 // that crashes or hangs is this film's error, not ours. The container's frame count is a claim that
 // is compared with what arrived, never trusted. Open films before other threads are started.
 #pragma once
@@ -17,20 +22,54 @@
 
 namespace vsprite {
 
-/// One image as filmed: (height, width) BGR, 8 bits, no padding.
+/// How Y, Cb, Cr are made of R, G, B (ITU-T H.273). Plain tags: they cross the pipe.
+enum class Matrix : std::uint8_t { Bt601, Bt709, Bt2020 };
+enum class Siting : std::uint8_t { Unknown, Left, Center, TopLeft };  ///< of a cell's colour
+enum class Transfer : std::uint8_t { Sdr, Hlg, Pq };
+
+/// What the numbers of the planes mean.
+struct Coding {
+  Matrix matrix = Matrix::Bt601;
+  bool full_range = false;  ///< Y 0..255 instead of 16..235, Cb and Cr 0..255 instead of 16..240
+  Siting siting = Siting::Unknown;
+
+  bool operator==(const Coding&) const = default;
+};
+
+/// One image as filmed: 8 bits, Y'CbCr 4:2:0, no padding. Odd sizes have a last half cell.
 struct Frame {
   int width = 0;
   int height = 0;
-  int index = 0;  ///< from 0, in the order of decoding
-  std::vector<std::uint8_t> bgr;
+  int index = 0;  ///< from 0, in the order of showing
+  Coding coding;
+  std::int64_t time = kNoTime;  ///< when it is shown, in FilmInfo's time base
+  bool damaged = false;         ///< the decoder patched holes in it
+
+  std::vector<std::uint8_t> y;       ///< (height, width)
+  std::vector<std::uint8_t> cb, cr;  ///< (cell_height(), cell_width())
+
+  static constexpr std::int64_t kNoTime = INT64_MIN;
+  int cell_width() const noexcept { return (width + 1) / 2; }
+  int cell_height() const noexcept { return (height + 1) / 2; }
+  /// Sizes the planes for `w` x `h` pixels; their contents are not specified.
+  void resize(int w, int h);
 };
 
 struct FilmInfo {
-  int width = 0;
+  int width = 0;  ///< as coded; see `rotation`
   int height = 0;
   std::uint32_t fps_numerator = 30;
   std::uint32_t fps_denominator = 1;
   int claimed_frames = 0;  ///< what the container says; 0 if it says nothing
+
+  std::uint32_t time_numerator = 1, time_denominator = 1;  ///< seconds a tick of Frame::time
+  int rotation = 0;  ///< degrees clockwise by which a player turns the picture: 0, 90, 180, 270
+  Transfer transfer = Transfer::Sdr;
+  Coding coding;             ///< of the first frame
+  std::string pixel_format;  ///< as libavutil names it: "yuv420p", "yuv420p10le", ...
+  int bits = 8;              ///< of a sample as coded
+  bool interlaced = false;
+  bool has_alpha = false;
 };
 
 class FilmReader {
@@ -43,14 +82,21 @@ class FilmReader {
 
   const FilmInfo& info() const noexcept;
   /// The next frame into `frame`; false at the end. Errors: DecoderFailed (died, hung for 30 s),
-  /// CorruptData (the frame size changes, told from the packets of H.264, H.265, MPEG-1, MPEG-2
-  /// and JPEG films; fewer frames than 0.98 x claimed - 2 arrived), OutOfMemory.
+  /// CorruptData (the frame size changes; fewer frames than 0.98 x claimed - 2 arrived),
+  /// OutOfMemory.
   Result<bool> read(Frame& frame);
 
  private:
+  friend Result<std::vector<Frame>> sample_frames(const std::string& path, int wanted);
   struct Impl;
   explicit FilmReader(std::unique_ptr<Impl> impl) noexcept;
   std::unique_ptr<Impl> impl_;
 };
+
+/// About `wanted` frames, spread evenly over the film, in order, each with its index. Key frames
+/// alone where there are enough of them (that costs next to nothing); otherwise the whole film is
+/// decoded and nearly all of it dropped. Takes at most 400 MB: fewer frames of large pictures.
+/// Errors: those of open() and read(), but a film that ends early is none.
+Result<std::vector<Frame>> sample_frames(const std::string& path, int wanted);
 
 }  // namespace vsprite

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// Film -> sprites, in two passes over the film and one over the keyed frames:
-//   1. frames spread over the whole film -> the model of the background
+// Film -> sprites, in one pass over the film and one over the keyed frames:
+//   1. some frames spread over the whole film -> the model of the background
 //   2. every frame keyed, in order, by all threads; what was keyed waits on disk in chunks
 //   3. the subject followed through all summaries, then every sample cut and written as PNG
 // Memory does not grow with the film: some sampled frames, a few frames in flight, one chunk.
@@ -29,65 +29,13 @@ namespace {
 namespace fs = std::filesystem;
 
 // Shares of the time that the three steps take, for the progress bar.
-constexpr double kSampled = 0.15, kKeyed = 0.75;
+constexpr double kSampled = 0.05, kKeyed = 0.75;
 constexpr int kContactRows = 6;
 
 using FramePointer = std::shared_ptr<const Frame>;
 
 void report(const StageRun& run, double fraction) {
   if (run.listener.progress) run.listener.progress(std::min(fraction, 1.0));
-}
-
-/// Every k-th frame of a film of unknown length: k doubles whenever the room is full.
-class SpreadSample {
- public:
-  explicit SpreadSample(int room) : room_(static_cast<std::size_t>(std::max(room, 16))) {}
-  void offer(const Frame& frame) {
-    if (frame.index % stride_ != 0) return;
-    if (frames_.size() == room_) {
-      std::size_t kept = 0;
-      for (std::size_t i = 0; i < frames_.size(); i += 2) std::swap(frames_[kept++], frames_[i]);
-      frames_.resize(kept);
-      stride_ *= 2;
-      if (frame.index % stride_ != 0) return;
-    }
-    frames_.push_back(frame);
-  }
-  std::vector<Frame> take() && { return std::move(frames_); }
-
- private:
-  std::size_t room_;
-  int stride_ = 1;
-  std::vector<Frame> frames_;
-};
-
-/// As many frames as are asked for, or fewer where they would take more than 400 MB.
-int sample_room(const FilmInfo& info, int wanted) {
-  const std::int64_t bytes = std::int64_t{3} * info.width * info.height;
-  return static_cast<int>(std::clamp<std::int64_t>(
-      (std::int64_t{400} << 20) / std::max<std::int64_t>(bytes, 1), 16, wanted));
-}
-
-struct Sampled {
-  std::vector<Frame> frames;
-  int frame_count = 0;
-};
-
-Result<Sampled> sample_film(StageRun& run, FilmReader& reader, const KeyConfig& key) {
-  SpreadSample sample(sample_room(reader.info(), key.sample_count));
-  Frame frame;
-  Sampled sampled;
-  for (;;) {
-    const auto more = reader.read(frame);
-    if (!more) return more.error();
-    if (!*more) break;
-    sample.offer(frame);
-    ++sampled.frame_count;
-    if (sampled.frame_count % 16 == 0 && reader.info().claimed_frames > 0)
-      report(run, kSampled * sampled.frame_count / reader.info().claimed_frames);
-  }
-  sampled.frames = std::move(sample).take();
-  return sampled;
 }
 
 /// One frame on its way through the pipeline.
@@ -101,18 +49,22 @@ struct KeyingItem {
 /// Pass 2: reads in order, keys in parallel, writes chunks in order.
 class KeyingPass {
  public:
-  KeyingPass(StageRun& run, FilmReader& reader, const ScreenModel& screen, const KeyedStore& store,
-             int frame_count)
+  KeyingPass(StageRun& run, FilmReader& reader, const ScreenModel& screen, const KeyedStore& store)
       : run_(run),
         reader_(reader),
         keyers_([&screen] { return Keyer(screen, MatteConfig{}); }),
-        store_(store),
-        frame_count_(frame_count),
-        summaries_(static_cast<std::size_t>(frame_count)) {
-    for (int chunk = 0; chunk * kChunkFrames < frame_count; ++chunk) stands_.push_back(load(chunk));
-  }
+        store_(store) {}
 
   Result<std::vector<FrameSummary>> run() {
+    // Where every chunk stands, the film is not decoded again: the last one is known by its length.
+    for (int chunk = 0;; ++chunk) {
+      const auto stand = load(chunk);
+      summaries_.insert(summaries_.end(), stand.begin(), stand.end());
+      if (stand.size() == kChunkFrames) continue;
+      if (!stand.empty()) return std::move(summaries_);
+      break;
+    }
+    summaries_.clear();
     const auto tokens = static_cast<std::size_t>(2 * tbb::this_task_arena::max_concurrency() + 2);
     using Item = std::shared_ptr<KeyingItem>;
     tbb::parallel_pipeline(
@@ -127,47 +79,32 @@ class KeyingPass {
             tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order,
                                          [this](const Item& item) { collect(*item); }));
     if (fault_) return *fault_;
+    if (!chunk_.empty()) write_chunk();
     if (write_fault_) return *write_fault_;
-    if (read_ != frame_count_)
-      return Error{ErrorCode::DecoderFailed,
-                   run_.film + ": " + std::to_string(read_) + " frames on the second reading, " +
-                       std::to_string(frame_count_) +
-                       " on the first: run it again, and look after the disk"};
     return std::move(summaries_);
   }
 
  private:
-  bool load(int chunk) {
-    const auto frames = store_.read(chunk);
-    const int first = chunk * kChunkFrames;
-    const int due = std::min(kChunkFrames, frame_count_ - first);
-    if (!frames || static_cast<int>(frames->size()) != due) return false;
-    for (int i = 0; i < due; ++i)
-      summaries_[static_cast<std::size_t>(first + i)] =
-          summary_of((*frames)[static_cast<std::size_t>(i)]);
-    return true;
-  }
-
-  bool all_stand() const {
-    return std::all_of(stands_.begin(), stands_.end(), [](bool b) { return b; });
+  /// Summaries of a chunk that stands; none where it does not.
+  std::vector<FrameSummary> load(int chunk) const {
+    std::vector<FrameSummary> summaries;
+    if (const auto frames = store_.read(chunk))
+      for (const KeyedFrame& frame : *frames) summaries.push_back(summary_of(frame));
+    return summaries;
   }
 
   std::shared_ptr<KeyingItem> next(tbb::flow_control& flow) {
     auto item = std::make_shared<KeyingItem>();
     auto frame = std::make_shared<Frame>();
-    if (fault_ || all_stand()) {
-      if (!fault_) read_ = frame_count_;
-      flow.stop();
-      return item;
-    }
     const auto more = reader_.read(*frame);
     if (!more) fault_ = more.error();
-    if (!more || !*more || read_ == frame_count_) {
-      if (more && *more) ++read_;  // longer than on the first reading: run() says so
+    if (!more || !*more) {
       flow.stop();
       return item;
     }
-    item->stands = stands_[static_cast<std::size_t>(read_ / kChunkFrames)];
+    if (read_ % kChunkFrames == 0) standing_ = load(read_ / kChunkFrames);
+    item->stands = standing_.size() == kChunkFrames;
+    if (item->stands) item->summary = standing_[static_cast<std::size_t>(read_ % kChunkFrames)];
     item->before = std::move(last_);
     item->frame = last_ = std::move(frame);
     ++read_;
@@ -184,31 +121,37 @@ class KeyingPass {
 
   void collect(KeyingItem& item) {
     const int index = item.frame->index;
+    summaries_.push_back(std::move(item.summary));
     if (!item.stands && !write_fault_) {
-      summaries_[static_cast<std::size_t>(index)] = std::move(item.summary);
+      chunk_number_ = index / kChunkFrames;
       chunk_.push_back(std::move(item.packed));
-      const bool last = index + 1 == frame_count_ || (index + 1) % kChunkFrames == 0;
-      if (last) {
-        if (const auto wrote = store_.write(index / kChunkFrames, chunk_); !wrote)
-          write_fault_ = wrote.error();
-        chunk_.clear();
-      }
+      if ((index + 1) % kChunkFrames == 0) write_chunk();
     }
-    if (index % 8 == 0) report(run_, kSampled + (kKeyed - kSampled) * index / frame_count_);
+    const int claimed = reader_.info().claimed_frames;
+    if (index % 8 == 0 && claimed > 0)
+      report(run_, kSampled + (kKeyed - kSampled) * std::min(1.0, 1.0 * index / claimed));
+  }
+
+  void write_chunk() {
+    if (const auto wrote = store_.write(chunk_number_, chunk_); !wrote)
+      write_fault_ = wrote.error();
+    chunk_.clear();
   }
 
   StageRun& run_;
   FilmReader& reader_;
   tbb::enumerable_thread_specific<Keyer> keyers_;
   const KeyedStore& store_;
-  int frame_count_;
+  // Of the first filter.
   int read_ = 0;
-  std::vector<FrameSummary> summaries_;
-  std::vector<bool> stands_;
+  std::vector<FrameSummary> standing_;  ///< of the chunk that is being read, where it stands
   FramePointer last_;
+  std::optional<Error> fault_;
+  // Of the last filter.
+  std::vector<FrameSummary> summaries_;
+  int chunk_number_ = 0;
   std::vector<std::string> chunk_;
-  std::optional<Error> fault_;        ///< of the first filter
-  std::optional<Error> write_fault_;  ///< of the last one
+  std::optional<Error> write_fault_;
 };
 
 Result<void> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
@@ -311,23 +254,22 @@ Json segment_result(const std::string& name, const FilmInfo& info, const ScreenM
 Result<Json> segment_film(StageRun& run, const std::string& origin) {
   const auto key = parse_key(run.settings.key);
   if (!key) return key.error();
-  // Both readings are opened before any thread is started: opening forks.
-  auto first = FilmReader::open(run.film);
-  if (!first) return first.error();
-  auto second = FilmReader::open(run.film);
-  if (!second) return second.error();
-  const FilmInfo info = first->info();
+  // The film is opened before any thread is started: opening forks.
+  auto reader = FilmReader::open(run.film);
+  if (!reader) return reader.error();
+  const FilmInfo info = reader->info();
   const std::string name = fs::path(run.film).filename().string();
 
-  const auto sampled = sample_film(run, *first, *key);
+  const auto sampled = sample_frames(run.film, key->sample_count);
   if (!sampled) return sampled.error();
-  const auto screen = measure_screen(sampled->frames, *key);
+  report(run, kSampled);
+  const auto screen = measure_screen(*sampled, *key);
   if (!screen) return Error{screen.error().code, run.film + ": " + screen.error().message};
   if (run.listener.note) run.listener.note("background: " + screen->reason);
 
   const auto store = KeyedStore::open(run.project, origin);
   if (!store) return store.error();
-  const auto summaries = KeyingPass(run, *second, *screen, *store, sampled->frame_count).run();
+  const auto summaries = KeyingPass(run, *reader, *screen, *store).run();
   if (!summaries) return summaries.error();
 
   const ExtractConfig config{.max_size = run.settings.max_size,
@@ -344,7 +286,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (!resumed) return resumed.error();
   if (auto made = make_folder(run.project.path("sprites")); !made) return made.error();
   if (auto cut = cut_sprites(run, *store, *extraction, *resumed); !cut) return cut.error();
-  if (auto sheet = write_contact_sheet(run, *screen, sampled->frames); !sheet) return sheet.error();
+  if (auto sheet = write_contact_sheet(run, *screen, *sampled); !sheet) return sheet.error();
   if (auto wrote = write_file(run.project.path("samples.csv"), table); !wrote) return wrote.error();
   return segment_result(name, info, *screen, *extraction);
 }

@@ -17,5 +17,4 @@ same() {  # same NAME VARIABLE=VALUE... -- OPTION...
 same "two threads" A=1 -- --jobs 2
 same "four threads" A=1 -- --jobs 4
 same "a plain libm" GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F -- --jobs 3
-same "a plain OpenCV" OPENCV_CPU_DISABLE=AVX2,FMA3,AVX -- --jobs 2
 finish

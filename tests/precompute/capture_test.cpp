@@ -10,6 +10,7 @@
 #include "capture/choreography.h"
 #include "capture/goldfish.h"
 #include "capture/statistics.h"
+#include "film/color.h"
 #include "film/video.h"
 #include "vsprite/image.h"
 
@@ -154,12 +155,13 @@ TEST(Capture, BoundsHoldWhatIsDrawn) {
 
 /// Peak signal to noise of a decoded frame against what went to the encoder, dB.
 double psnr(const Frame& decoded, const Image& filmed) {
+  const Image image = to_image(decoded);
   double sum = 0;
-  for (std::size_t i = 0; i < decoded.bgr.size(); ++i) {
-    const double d = decoded.bgr[i] - filmed.rgba[i / 3 * 4 + 2 - i % 3];
+  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
+    const double d = image.rgba[i] - filmed.rgba[i];
     sum += d * d;
   }
-  return 10 * std::log10(255.0 * 255 * static_cast<double>(decoded.bgr.size()) / sum);
+  return 10 * std::log10(255.0 * 255 * 0.75 * static_cast<double>(image.rgba.size()) / sum);
 }
 
 TEST(Capture, TheBundledFilmIsThisFilm) {

@@ -83,20 +83,21 @@ TEST(Matte, KeepsTheSubjectsOwnColor) {
 }
 
 TEST(Matte, DropsSpecksAndFillsHoles) {
-  Frame frame = scene().frames[8];
-  const auto put = [&](int x, int y, int b, int g, int r) {
+  const Disc& disc = scene().discs[8];
+  Image image = scene().film.image(8, {disc});
+  const auto put = [&](int x, int y, int r, int g, int b) {
     for (int k = 0; k < 4; ++k) {
-      std::uint8_t* p = frame.bgr.data() + 3 * ((y + k / 2) * frame.width + x + k % 2);
-      p[0] = static_cast<std::uint8_t>(b);
+      std::uint8_t* p = image.rgba.data() + 4 * ((y + k / 2) * image.width + x + k % 2);
+      p[0] = static_cast<std::uint8_t>(r);
       p[1] = static_cast<std::uint8_t>(g);
-      p[2] = static_cast<std::uint8_t>(r);
+      p[2] = static_cast<std::uint8_t>(b);
     }
   };
-  put(20, 200, 80, 100, 120);
-  const Disc& disc = scene().discs[8];
+  put(20, 200, 120, 100, 80);
   const int cx = static_cast<int>(disc.x) & ~1;
   const int cy = static_cast<int>(disc.y) & ~1;
-  put(cx, cy, 120, 125, 130);
+  put(cx, cy, 130, 125, 120);
+  const Frame frame = to_frame(image, 8);
   Keyer keyer(scene().screen, {});
   const KeyedFrame keyed = keyer.key(frame, nullptr);
   EXPECT_EQ(keyed.blobs.size(), 1u);

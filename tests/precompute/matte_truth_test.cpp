@@ -50,10 +50,7 @@ Decoded bundled_film(const capture::GoldfishFilm& truth, const testing::TempFold
   capture::TruthFrame t;
   for (int i = 0; i < kFrames; ++i) {
     truth.render(i * step, t);
-    Frame f{t.width, t.height, i, {}};
-    for (std::size_t p = 0; p < t.composite.rgba.size(); p += 4)
-      for (std::size_t c : {2u, 1u, 0u}) f.bgr.push_back(t.composite.rgba[p + c]);
-    frames.push_back(std::move(f));
+    frames.push_back(to_frame(t.composite, i));
   }
   if (!testing::encode_film(frames, folder.file("fish.mp4"),
                             "-c:v libx264 -crf 20 -pix_fmt yuv420p"))
@@ -80,14 +77,14 @@ std::vector<char> band_of(const capture::TruthFrame& t) {
 }
 
 // alpha = (C - B) . (F - B) / |F - B|^2; where the truth has no foreground, the fish's mean colour.
-double projected(const capture::TruthFrame& t, const Frame& frame, std::size_t i,
+double projected(const capture::TruthFrame& t, const Image& frame, std::size_t i,
                  const double (&mean)[3]) {
   double top = 0;
   double bottom = 0;
   for (std::size_t c = 0; c < 3; ++c) {
     const double b = static_cast<double>(t.plate[3 * i + c]);
     const double f = t.alpha[i] > 0 ? static_cast<double>(t.foreground[3 * i + c]) : mean[c];
-    top += (SyntheticFilm::linear(frame.bgr[3 * i + 2 - c]) - b) * (f - b);
+    top += (SyntheticFilm::linear(frame.rgba[4 * i + c]) - b) * (f - b);
     bottom += (f - b) * (f - b);
   }
   return bottom > 1e-9 ? std::clamp(top / bottom, 0.0, 1.0) : 0.0;
@@ -111,6 +108,7 @@ void compare(const capture::TruthFrame& t, const Frame& frame, const KeyedFrame&
   }
   for (double& m : mean) m /= area;
   const auto band = band_of(t);
+  const Image picture = to_image(frame);
   double weight = 0;
   double x_sum = 0;
   double y_sum = 0;
@@ -131,7 +129,7 @@ void compare(const capture::TruthFrame& t, const Frame& frame, const KeyedFrame&
       y_sum += a * (y + 0.5);
       if (band[i]) {
         sums.keyed += std::abs(a - truth);
-        sums.plain += std::abs(projected(t, frame, i, mean) - truth);
+        sums.plain += std::abs(projected(t, picture, i, mean) - truth);
         sums.band_pixels += 1;
       } else {
         sums.rest += std::abs(a - truth);

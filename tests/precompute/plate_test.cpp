@@ -21,10 +21,11 @@ std::vector<Frame> crossing(const SyntheticFilm& scene, int count = 16) {
 double mean_plate_error(const SyntheticFilm& scene, const ScreenModel& screen) {
   double sum = 0;
   for (int y = 0; y < scene.height; ++y)
-    for (int x = 0; x < scene.width; ++x)
-      for (int c = 0; c < 3; ++c)
-        sum += std::abs(screen.plate[static_cast<std::size_t>(3 * (y * scene.width + x) + 2 - c)] -
-                        scene.plate(c, x, y));
+    for (int x = 0; x < scene.width; ++x) {
+      const auto rgb = rgb_at(screen.plate, x, y);
+      for (std::size_t c = 0; c < 3; ++c)
+        sum += std::abs(rgb[c] - scene.plate(static_cast<int>(c), x, y));
+    }
   return sum / (3.0 * scene.width * scene.height);
 }
 
@@ -63,19 +64,22 @@ TEST(Plate, SeesBehindASubjectThatRests) {
 
 TEST(Plate, TakesAStandingCameraForAPlate) {
   SyntheticFilm scene;
-  std::vector<Frame> frames = crossing(scene);
+  std::vector<Frame> frames;
   // Stripes of many colours behind everything: no single screen.
-  for (Frame& f : frames)
-    for (int y = 0; y < f.height; ++y)
-      for (int x = 0; x < f.width; ++x) {
-        std::uint8_t* p = f.bgr.data() + 3 * (y * f.width + x);
-        const bool subject = p[2] > p[0] + 20;
-        if (subject) continue;
+  for (int i = 0; i < 16; ++i) {
+    const Disc disc{60.0 + 12 * i, 90.0 + 4 * i};
+    Image image = scene.image(i, {disc});
+    for (int y = 0; y < scene.height; ++y)
+      for (int x = 0; x < scene.width; ++x) {
+        if (scene.alpha(disc, x, y) > 0.5) continue;
+        std::uint8_t* p = image.rgba.data() + 4 * (y * scene.width + x);
         const int stripe = x / 16 * 37 % 160;
-        p[0] = static_cast<std::uint8_t>(40 + stripe);
+        p[0] = static_cast<std::uint8_t>(60 + y / 30 * 20);
         p[1] = static_cast<std::uint8_t>(200 - stripe);
-        p[2] = static_cast<std::uint8_t>(60 + y / 30 * 20);
+        p[2] = static_cast<std::uint8_t>(40 + stripe);
       }
+    frames.push_back(to_frame(image, i));
+  }
   const auto screen = measure_screen(frames, {});
   ASSERT_TRUE(screen) << screen.error().message;
   EXPECT_EQ(screen->kind, KeyKind::Plate) << screen->reason;
@@ -85,16 +89,16 @@ TEST(Plate, RefusesAFilmWithoutABackground) {
   std::vector<Frame> frames;
   std::uint32_t state = 7;
   for (int i = 0; i < 12; ++i) {
-    Frame f{160, 120, i, std::vector<std::uint8_t>(3 * 160 * 120)};
+    Image image{160, 120, std::vector<std::uint8_t>(4 * 160 * 120)};
     for (int y = 0; y < 120; y += 8)
       for (int x = 0; x < 160; x += 8) {
         state = state * 1664525u + 1013904223u;
         for (int k = 0; k < 64; ++k)
           for (int c = 0; c < 3; ++c)
-            f.bgr[static_cast<std::size_t>(3 * ((y + k / 8) * 160 + x + k % 8) + c)] =
+            image.rgba[static_cast<std::size_t>(4 * ((y + k / 8) * 160 + x + k % 8) + c)] =
                 static_cast<std::uint8_t>(state >> (8 * c));
       }
-    frames.push_back(std::move(f));
+    frames.push_back(to_frame(image, i));
   }
   const auto screen = measure_screen(frames, {});
   ASSERT_FALSE(screen) << screen->reason;

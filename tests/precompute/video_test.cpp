@@ -24,9 +24,11 @@ using testing::TempFolder;
 std::vector<Frame> counting_frames(int count, int width = 160, int height = 120) {
   std::vector<Frame> frames;
   for (int i = 0; i < count; ++i) {
-    Frame f{width, height, i,
-            std::vector<std::uint8_t>(static_cast<std::size_t>(3 * width * height))};
-    for (auto& byte : f.bgr) byte = static_cast<std::uint8_t>(40 + 4 * (i % 40));
+    Frame f;
+    f.resize(width, height);
+    f.y.assign(f.y.size(), static_cast<std::uint8_t>(40 + 4 * (i % 40)));
+    f.cb.assign(f.cb.size(), 110);
+    f.cr.assign(f.cr.size(), 140);
     frames.push_back(std::move(f));
   }
   return frames;
@@ -57,16 +59,65 @@ TEST(Video, DecodesEveryFrameInOrder) {
   EXPECT_EQ(film->info().fps_numerator, 30000u);
   EXPECT_EQ(film->info().fps_denominator, 1001u);
   Frame frame;
-  int first = 0;
   for (int i = 0; i < 40; ++i) {
     ASSERT_TRUE(*film->read(frame));
     EXPECT_EQ(frame.index, i);
-    const int level = frame.bgr[3 * (60 * 160 + 80)];
-    if (i == 0) first = level;  // the decoder's rounding darkens all alike
-    EXPECT_NEAR(level - first, 4 * i, 2);
+    EXPECT_NEAR(frame.y[60 * 160 + 80], 40 + 4 * i, 1);
+    EXPECT_NEAR(frame.cb[30 * 80 + 40], 110, 1);
+    EXPECT_NEAR(frame.cr[30 * 80 + 40], 140, 1);
+    const FilmInfo& info = film->info();
+    EXPECT_EQ(frame.time * info.time_numerator * 30000 / info.time_denominator, i * 1001);
   }
   EXPECT_FALSE(*film->read(frame));
   EXPECT_FALSE(*film->read(frame)) << "the end stays the end";
+}
+
+// What the planes mean comes with them.
+TEST(Video, TellsHowTheFilmIsCoded) {
+  const TempFolder folder;
+  const std::string path = folder.file("tagged.mp4");
+  if (!encode_film(counting_frames(3, 159, 121), path,
+                   "-c:v libx264 -pix_fmt yuv444p10 -color_trc arib-std-b67 -colorspace bt709 "
+                   "-color_primaries bt709") ||
+      std::system(("ffmpeg -v error -i '" + path + "' -c copy -metadata:s:v rotate=90 '" +
+                   folder.file("turned.mp4") + "'")
+                      .c_str()) != 0)
+    GTEST_SKIP() << "no ffmpeg";
+  auto film = FilmReader::open(folder.file("turned.mp4"));
+  ASSERT_TRUE(film) << film.error().message;
+  const FilmInfo& info = film->info();
+  EXPECT_EQ(info.coding.matrix, Matrix::Bt709);
+  EXPECT_FALSE(info.coding.full_range);
+  EXPECT_EQ(info.transfer, Transfer::Hlg);
+  EXPECT_EQ(info.pixel_format, "yuv444p10le");
+  EXPECT_EQ(info.bits, 10);
+  EXPECT_EQ(info.rotation, 270) << "the tag counts against the clock";
+  EXPECT_FALSE(info.interlaced);
+  Frame frame;
+  ASSERT_TRUE(*film->read(frame));
+  EXPECT_EQ(frame.y.size(), 159u * 121u);
+  EXPECT_EQ(frame.cb.size(), 80u * 61u);
+  EXPECT_NEAR(frame.y[60 * 159 + 80], 40, 1);
+  EXPECT_NEAR(frame.cr[30 * 80 + 40], 140, 1);
+}
+
+// Key frames where there are many, the whole film where there are few; the same spread either way.
+TEST(Video, SamplesAreSpreadOverTheFilm) {
+  const TempFolder folder;
+  for (const std::string keys : {"1", "4", "250"}) {
+    const std::string path = folder.file(keys + ".mp4");
+    if (!encode_film(counting_frames(160), path,
+                     "-c:v libx264 -crf 12 -pix_fmt yuv420p -g " + keys))
+      GTEST_SKIP() << "no ffmpeg";
+    const auto frames = sample_frames(path, 40);
+    ASSERT_TRUE(frames) << frames.error().message;
+    ASSERT_EQ(frames->size(), 40u) << keys;
+    for (std::size_t k = 0; k < frames->size(); ++k) {
+      const Frame& frame = (*frames)[k];
+      EXPECT_NEAR(frame.index, 4 * static_cast<int>(k), 3) << keys;
+      EXPECT_NEAR(frame.y[0], 40 + 4 * (frame.index % 40), 1) << keys << ", " << k;
+    }
+  }
 }
 
 TEST(Video, SaysWhatIsNoFilm) {
@@ -120,7 +171,9 @@ TEST(Video, ChangedFrameSizeIsRefusedWhereItChanges) {
     const auto count = read_all(*film);
     ASSERT_FALSE(count) << codec << ": " << *count;
     EXPECT_EQ(count.error().code, ErrorCode::CorruptData);
-    EXPECT_NE(count.error().message.find("frame 30 is 160 x 120 px, the first 320 x 240"),
+    // libavcodec's MPEG-2 decoder loses the last picture of the first size.
+    const std::string where = codec.starts_with("lib") ? "frame 30" : "frame 29";
+    EXPECT_NE(count.error().message.find(where + " is 160 x 120 px, the first 320 x 240"),
               std::string::npos)
         << codec << ": " << count.error().message;
   }

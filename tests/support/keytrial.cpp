@@ -27,23 +27,6 @@ double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// About `count` frames spread over the film.
-Result<std::vector<Frame>> sample_film(const std::string& path, int count, int& total) {
-  auto film = FilmReader::open(path);
-  if (!film) return film.error();
-  const int step = std::max(film->info().claimed_frames / count, 1);
-  std::vector<Frame> samples;
-  Frame frame;
-  for (;;) {
-    auto more = film->read(frame);
-    if (!more) return more.error();
-    if (!*more) break;
-    if (frame.index % step == 0) samples.push_back(frame);
-    total = frame.index + 1;
-  }
-  return samples;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -53,11 +36,10 @@ int main(int argc, char** argv) {
   if (!config) return fail(config.error());
   const int first = argc > 4 ? std::atoi(argv[4]) : 0;
   const int rows = argc > 6 ? std::atoi(argv[6]) : 6;
-  int total = 0;
   double start = seconds();
-  auto samples = sample_film(path, config->sample_count, total);
+  auto samples = sample_frames(path, config->sample_count);
   if (!samples) return fail(samples.error());
-  std::printf("%d frames decoded at %.0f frames/s\n", total, total / (seconds() - start));
+  std::printf("%zu frames sampled in %.2f s\n", samples->size(), seconds() - start);
   start = seconds();
   auto screen = measure_screen(*samples, *config);
   if (!screen) return fail(screen.error());
@@ -68,11 +50,12 @@ int main(int argc, char** argv) {
       static_cast<double>(screen->noise[0]), static_cast<double>(screen->noise[1]),
       static_cast<double>(screen->noise[2]), static_cast<double>(screen->threshold),
       screen->opening, static_cast<double>(screen->hidden), seconds() - start);
+  auto film = FilmReader::open(path);
+  if (!film) return fail(film.error());
+  const int total = film->info().claimed_frames;
   const int step =
       argc > 5 && std::atoi(argv[5]) > 0 ? std::atoi(argv[5]) : std::max((total - first) / rows, 1);
 
-  auto film = FilmReader::open(path);
-  if (!film) return fail(film.error());
   Keyer keyer(*screen, {});
   Frame frame;
   Frame before;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "film/color.h"
 #include "film/video.h"
 
 namespace vsprite::testing {
@@ -48,11 +49,11 @@ struct SyntheticFilm {
   }
 
   Frame frame(int index, const std::vector<Disc>& discs) const {
-    Frame f;
-    f.width = width;
-    f.height = height;
-    f.index = index;
-    f.bgr.resize(static_cast<std::size_t>(3 * width * height));
+    return to_frame(image(index, discs), index);
+  }
+  Image image(int index, const std::vector<Disc>& discs) const {
+    Image made{width, height,
+               std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height), 255)};
     std::uint32_t state = 12345u + 977u * static_cast<std::uint32_t>(index);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
@@ -62,34 +63,11 @@ struct SyntheticFilm {
         for (const Disc& disc : discs) a = std::max(a, alpha(disc, x, y));
         for (int c = 0; c < 3; ++c) {
           const double mixed = a * linear(subject[c]) + (1 - a) * linear(plate(c, x, y));
-          f.bgr[static_cast<std::size_t>(3 * (y * width + x) + 2 - c)] =
+          made.rgba[static_cast<std::size_t>(4 * (y * width + x) + c)] =
               static_cast<std::uint8_t>(std::clamp(code(mixed) + wobble + 0.5, 0.0, 255.0));
         }
       }
-    share_color(f);
-    return f;
-  }
-
- private:
-  // 4:2:0: the four pixels of a cell keep their luma and share their colour.
-  void share_color(Frame& f) const {
-    for (int y = 0; y + 1 < height; y += 2)
-      for (int x = 0; x + 1 < width; x += 2) {
-        std::uint8_t* p[4];
-        for (int k = 0; k < 4; ++k) p[k] = f.bgr.data() + 3 * ((y + k / 2) * width + x + k % 2);
-        double mean[3] = {};
-        double luma[4];
-        double all = 0;
-        for (int k = 0; k < 4; ++k) {
-          luma[k] = 0.114 * p[k][0] + 0.587 * p[k][1] + 0.299 * p[k][2];
-          all += luma[k] / 4;
-          for (int c = 0; c < 3; ++c) mean[c] += p[k][c] / 4.0;
-        }
-        for (int k = 0; k < 4; ++k)
-          for (int c = 0; c < 3; ++c)
-            p[k][c] =
-                static_cast<std::uint8_t>(std::clamp(mean[c] + luma[k] - all + 0.5, 0.0, 255.0));
-      }
+    return made;
   }
 };
 
@@ -97,13 +75,15 @@ struct SyntheticFilm {
 inline bool encode_film(const std::vector<Frame>& frames, const std::string& path,
                         const std::string& options = "-c:v libx264 -crf 18 -pix_fmt yuv420p",
                         const std::string& rate = "30") {
-  const std::string command = "ffmpeg -y -loglevel error -f rawvideo -pix_fmt bgr24 -s " +
+  const std::string command = "ffmpeg -y -loglevel error -f rawvideo -pix_fmt yuv420p -s " +
                               std::to_string(frames[0].width) + "x" +
                               std::to_string(frames[0].height) + " -r " + rate + " -i - " +
                               options + " '" + path + "' 2>/dev/null";
   std::FILE* pipe = popen(command.c_str(), "w");
   if (!pipe) return false;
-  for (const Frame& f : frames) std::fwrite(f.bgr.data(), 1, f.bgr.size(), pipe);
+  for (const Frame& f : frames)
+    for (const auto* plane : {&f.y, &f.cb, &f.cr})
+      std::fwrite(plane->data(), 1, plane->size(), pipe);
   return pclose(pipe) == 0;
 }
 

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// film/decoder.h - the child process that decodes, and what it sends through the pipe: one Hello,
+// then a FrameHead and its planes (Y, Cb, Cr, no padding) for each frame, then a FrameHead of kind
+// End.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <string>
+
+#include "film/video.h"
+
+namespace vsprite::detail {
+
+enum class Kind : std::int32_t { Film, NoFilm, Frame, End };
+
+struct Hello {
+  Kind kind = Kind::NoFilm;
+  std::int32_t width = 0, height = 0;
+  std::int32_t claimed_frames = 0;
+  std::int32_t rotation = 0;
+  std::int32_t bits = 8;
+  double fps = 0;
+  std::uint32_t time_numerator = 1, time_denominator = 1;
+  Coding coding;
+  Transfer transfer = Transfer::Sdr;
+  std::uint8_t interlaced = 0, has_alpha = 0;
+  char pixel_format[32] = {};
+};
+
+struct FrameHead {
+  Kind kind = Kind::End;
+  std::int32_t width = 0, height = 0;
+  std::int32_t index = 0;
+  std::int64_t time = Frame::kNoTime;
+  Coding coding;
+  std::uint8_t damaged = 0;
+};
+
+/// Which frames are sent.
+struct Selection {
+  enum Mode { Every, KeyFrames, Spread } mode = Every;
+  int wanted = 0;  ///< of KeyFrames and Spread: about how many
+};
+
+inline constexpr int kExitNoMemory = 71;
+
+/// Runs in the child, between fork and _exit; `parent` is who forked it.
+[[noreturn]] void decode_in_child(int out, pid_t parent, const std::string& path,
+                                  const Selection& selection);
+
+}  // namespace vsprite::detail
