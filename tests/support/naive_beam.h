@@ -84,6 +84,7 @@ inline NaiveBeam naive_beam(const PathCost& path, std::size_t width, Selection s
       }
       parents.push_back(to);
     }
+    if (parents.empty()) continue;
     for (std::uint32_t p = 0; p < parents.size(); ++p) {
       const PathState& s = parents[p];
       const Cost rank = path.estimate(s);
