@@ -24,9 +24,10 @@
 namespace vsprite {
 
 struct SearchConfig {
-  int width = 50000;                     ///< sequences kept a tick, 1..10,000,000
-  int jobs = 0;                          ///< threads, 0 = all; the result does not depend on it
-  std::function<void(double)> progress = {};  ///< share of the path behind the furthest; may be empty
+  int width = 50000;  ///< sequences kept a tick, 1..10,000,000
+  int jobs = 0;       ///< threads, 0 = all; the result does not depend on it
+  std::function<void(double)> progress =
+      {};  ///< share of the path behind the furthest; may be empty
   /// Shown every tick's survivors, in order; for tests, may be empty.
   std::function<void(std::span<const PathState>)> survivors = {};
 };

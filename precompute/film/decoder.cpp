@@ -347,41 +347,73 @@ std::vector<bool> spread(std::size_t count, int wanted) {
 
 class Choice {
  public:
-  Choice(const std::string& path, const Selection& selection) : mode_(selection.mode) {
+  Choice(const std::string& path, const Selection& selection)
+      : mode_(selection.mode), length_(selection.length) {
     if (mode_ == Selection::Every) return;
     outline_ = outline_of(path);
-    if (mode_ == Selection::KeyFrames &&
-        static_cast<int>(outline_.keys.size()) < std::min(selection.wanted, kLeastKeyFrames))
-      mode_ = Selection::Spread;
-    const bool keys = mode_ == Selection::KeyFrames;
-    chosen_ = spread(keys ? outline_.keys.size() : outline_.times.size(), selection.wanted);
+    const bool few =
+        static_cast<int>(outline_.keys.size()) < std::min(selection.wanted, kLeastKeyFrames);
+    by_keys_ = mode_ != Selection::Spread && !few;
+    if (by_keys_) key_chosen_ = spread(outline_.keys.size(), selection.wanted);
+    if (mode_ == Selection::KeyFrames && few) mode_ = Selection::Spread;
+    if (by_keys_) return;
+    chosen_ = spread(outline_.times.size(), selection.wanted);
+    if (mode_ != Selection::Bursts) return;
+    // Runs begin at the chosen frames; none runs into the next.
+    for (int i = static_cast<int>(chosen_.size()) - 1; i >= 0; --i)
+      for (int k = 1; chosen_[static_cast<std::size_t>(i)] && k < length_; ++k)
+        if (const auto next = static_cast<std::size_t>(i + k); next < chosen_.size())
+          chosen_[next] = true;
   }
   bool keys_only() const { return mode_ == Selection::KeyFrames; }
+  int counted() const { return static_cast<int>(outline_.times.size()); }
   bool admits(const AVPacket& packet) {
-    if (mode_ != Selection::KeyFrames) return true;
-    const bool key =
-        (packet.flags & AV_PKT_FLAG_KEY) != 0 && (packet.flags & AV_PKT_FLAG_DISCARD) == 0;
-    return key && chosen_[std::min(key_++, chosen_.size() - 1)];
+    if (!by_keys_) return true;
+    const bool shown = (packet.flags & AV_PKT_FLAG_DISCARD) == 0;
+    const bool key = (packet.flags & AV_PKT_FLAG_KEY) != 0 && shown;
+    if (key && key_chosen_[std::min(key_++, key_chosen_.size() - 1)]) {
+      left_ = mode_ == Selection::Bursts ? length_ + kReordered : 1;
+      begin_ = index_of(packet.pts);
+    } else if (key && mode_ == Selection::KeyFrames) {
+      left_ = 0;
+    }
+    if (mode_ == Selection::KeyFrames && !key) return false;
+    if (left_ == 0) return false;
+    if (mode_ == Selection::Bursts && key) begins_.push_back(begin_);
+    left_ -= shown ? 1 : 0;
+    return true;
   }
   /// Whether the frame, the `count`-th decoded, is to be sent, and its number in the film.
   bool sends(const AVFrame& frame, int count, int& index) const {
     index = count;
-    if (mode_ == Selection::Spread)
+    if (mode_ == Selection::Every) return true;
+    if (!by_keys_)
       return static_cast<std::size_t>(count) < chosen_.size() &&
              chosen_[static_cast<std::size_t>(count)];
-    if (mode_ == Selection::KeyFrames && frame.best_effort_timestamp != AV_NOPTS_VALUE)
-      index = static_cast<int>(std::lower_bound(outline_.times.begin(), outline_.times.end(),
-                                                frame.best_effort_timestamp) -
-                               outline_.times.begin());
-    return true;
+    if (frame.best_effort_timestamp != AV_NOPTS_VALUE)
+      index = index_of(frame.best_effort_timestamp);
+    if (mode_ == Selection::KeyFrames) return true;
+    // Behind the run's end frames come with holes between: those that they refer to are not read.
+    return std::any_of(begins_.begin(), begins_.end(),
+                       [&](int begin) { return index >= begin && index < begin + length_; });
   }
 
  private:
   static constexpr int kLeastKeyFrames = 24;
+  static constexpr int kReordered = 6;  // packets that may stand before an earlier frame's
+  int index_of(std::int64_t time) const {
+    return static_cast<int>(std::lower_bound(outline_.times.begin(), outline_.times.end(), time) -
+                            outline_.times.begin());
+  }
+
   Selection::Mode mode_;
+  int length_;
+  bool by_keys_ = false;
   Outline outline_;
-  std::vector<bool> chosen_;
+  std::vector<bool> chosen_, key_chosen_;
   std::size_t key_ = 0;
+  int left_ = 0, begin_ = 0;
+  std::vector<int> begins_;
 };
 
 void decode(int out, const std::string& path, const Selection& selection) {
@@ -395,6 +427,7 @@ void decode(int out, const std::string& path, const Selection& selection) {
   if (opened && choice.keys_only()) film.decoder().skip_frame = AVDISCARD_NONKEY;
   if (!opened || !film.next_frame(*frame, admits)) return send(out, &hello, sizeof hello);
   hello = describe(film, *frame);
+  hello.counted_frames = choice.counted();
   send(out, &hello, sizeof hello);
   Sender sender(out);
   int count = 0;

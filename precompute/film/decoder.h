@@ -21,6 +21,7 @@ struct Hello {
   Kind kind = Kind::NoFilm;
   std::int32_t width = 0, height = 0;
   std::int32_t claimed_frames = 0;
+  std::int32_t counted_frames = 0;  ///< packets found; 0 for Every, which does not look
   std::int32_t rotation = 0;
   std::int32_t bits = 8;
   double fps = 0;
@@ -42,8 +43,9 @@ struct FrameHead {
 
 /// Which frames are sent.
 struct Selection {
-  enum Mode { Every, KeyFrames, Spread } mode = Every;
-  int wanted = 0;  ///< of KeyFrames and Spread: about how many
+  enum Mode { Every, KeyFrames, Spread, Bursts } mode = Every;
+  int wanted = 0;  ///< of all but Every: about how many frames, or runs of them
+  int length = 1;  ///< of Bursts: frames in a run
 };
 
 inline constexpr int kExitNoMemory = 71;

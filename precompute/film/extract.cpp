@@ -15,13 +15,15 @@
 namespace vsprite {
 namespace {
 
-constexpr double kLikeSize = 0.4;    // a second part this large against the first is a rival
-constexpr double kRivalShare = 0.2;  // of the frames; more make the film one of several subjects
-constexpr double kSpeck = 0.1;       // of the usual area; smaller is no subject
-constexpr int kDuplicateReach = 8;   // frames either side that a difference is held against
+constexpr int kDuplicateReach = 8;  // frames either side that a difference is held against
 constexpr double kDuplicateRatio = 0.25;
-constexpr double kMoving = 0.25;  // px a frame over the reach; slower is rest
-constexpr double kAreaJump = 3;   // from one frame to the next: a cut
+constexpr double kMoving = 0.25;      // px a frame over the reach; slower is rest
+constexpr double kAreaJump = 3;       // from one frame to the next: a cut
+constexpr std::size_t kCutReach = 8;  // frames either side that a change of look is held against
+constexpr double kCutRatio = 6;
+constexpr double kCutFloor = 20;  // code values
+constexpr double kGroundShare = 0.002;
+constexpr int kGroundReach = 2;  // frames either side of the ground line's median
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
@@ -34,88 +36,6 @@ double distance(const Blob& a, const Blob& b) {
   const double x = a.anchor_x - b.anchor_x;
   const double y = a.anchor_y - b.anchor_y;
   return std::sqrt(x * x + y * y);
-}
-
-double longer_side(const Blob& blob) { return std::max(blob.box.width, blob.box.height); }
-
-std::string at_text(const Blob& blob) {
-  std::string text = "(";
-  text += std::to_string(static_cast<int>(blob.anchor_x)) + ", ";
-  return text + std::to_string(static_cast<int>(blob.anchor_y)) + ")";
-}
-
-// The subject's blob in each frame, null where there is none.
-struct Track {
-  std::vector<const Blob*> blob;
-  double usual_area = 0;
-  double body = 0;  // usual longer side, px
-};
-
-// The usual area is that of the largest part that is whole in the picture. A part is the subject if
-// it is not a speck against that; the largest one, unless another of like size or of more usual
-// size lies nearer to where the subject was.
-Track follow(std::span<const FrameSummary> frames) {
-  Track track;
-  std::vector<double> areas;
-  std::vector<double> cut_areas;
-  for (const FrameSummary& frame : frames) {
-    for (const Blob& blob : frame.blobs) {
-      if (blob.touches_border) continue;
-      areas.push_back(blob.area);
-      break;
-    }
-    if (!frame.blobs.empty()) cut_areas.push_back(frame.blobs[0].area);
-  }
-  track.usual_area = median(areas.empty() ? cut_areas : areas);
-  const auto unlike = [&](const Blob& blob) {
-    return std::max(blob.area / track.usual_area, track.usual_area / blob.area);
-  };
-  const Blob* last = nullptr;
-  std::vector<double> sides;
-  for (const FrameSummary& frame : frames) {
-    const Blob* choice = nullptr;
-    for (const Blob& blob : frame.blobs) {
-      if (blob.area < kSpeck * track.usual_area) continue;
-      if (!choice) {
-        choice = &blob;
-        continue;
-      }
-      const bool nearer = !last || distance(blob, *last) < distance(*choice, *last);
-      const bool fits = blob.area > kLikeSize * choice->area || unlike(*choice) > 2 * unlike(blob);
-      if (nearer && fits) choice = &blob;
-    }
-    track.blob.push_back(choice);
-    if (choice && unlike(*choice) < kAreaJump) last = choice;
-    if (choice && !choice->touches_border) sides.push_back(longer_side(*choice));
-  }
-  track.body = std::max(median(sides), 8.0);
-  return track;
-}
-
-Result<void> check_single(std::span<const FrameSummary> frames, const Track& track) {
-  int present = 0;
-  int rivals = 0;
-  const FrameSummary* first = nullptr;
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    if (!track.blob[f]) continue;
-    ++present;
-    const auto& blobs = frames[f].blobs;
-    if (blobs.size() < 2 || blobs[1].area <= kLikeSize * track.blob[f]->area ||
-        blobs[1].area <= kLikeSize * track.usual_area)
-      continue;
-    if (rivals++ == 0) first = &frames[f];
-  }
-  if (present == 0)
-    return Error{ErrorCode::BadContent, "no subject: nothing differs from the screen in " +
-                                            std::to_string(frames.size()) +
-                                            " frames; due: one subject before a steady background"};
-  if (rivals > kRivalShare * present)
-    return Error{ErrorCode::BadContent,
-                 "several subjects of like size in " + std::to_string(rivals) + " of " +
-                     std::to_string(present) + " frames, first in frame " +
-                     std::to_string(first->index) + " at " + at_text(first->blobs[0]) + " and " +
-                     at_text(first->blobs[1]) + "; due: one subject; cut or mask the film"};
-  return {};
 }
 
 // 1 where a frame repeats the one before.
@@ -151,9 +71,40 @@ std::vector<std::uint8_t> find_duplicates(std::span<const FrameSummary> frames,
 struct Kept {
   int frame;  // index into the summaries
   int duration;
+  int time;  // summaries since the clip began, those that the camera dropped counted
 };
 
 using Clip = std::vector<Kept>;
+
+// The subject leaps, swells or changes its look from one frame to the next.
+bool cuts(std::span<const FrameSummary> frames, const Track& track, std::size_t f) {
+  const Blob& blob = *track.blob[f];
+  const Blob& before = *track.blob[f - 1];
+  if (frames[f].cut_before || distance(blob, before) > track.body) return true;
+  if (blob.area > kAreaJump * before.area || before.area > kAreaJump * blob.area) return true;
+  std::vector<double> near;
+  for (std::size_t k = f > kCutReach ? f - kCutReach : 1;
+       k < std::min(f + kCutReach, frames.size()); ++k)
+    if (k != f && track.blob[k]) near.push_back(frames[k].difference);
+  return near.size() >= kCutReach && frames[f].difference > kCutFloor &&
+         frames[f].difference > kCutRatio * median(near);
+}
+
+// True where the way from the frame before is twice that of the steps around it, which agree: the
+// camera left one out.
+bool leaps_over_one(const Track& track, const std::vector<std::uint8_t>& repeats, std::size_t f) {
+  if (f < 2 || f + 1 >= track.blob.size() || repeats[f] || repeats[f - 1] || repeats[f + 1])
+    return false;
+  for (std::size_t k = f - 2; k <= f + 1; ++k)
+    if (!track.blob[k]) return false;
+  const double before = distance(*track.blob[f - 1], *track.blob[f - 2]);
+  const double step = distance(*track.blob[f], *track.blob[f - 1]);
+  const double after = distance(*track.blob[f + 1], *track.blob[f]);
+  const double usual = 0.5 * (before + after);
+  const double two = distance(*track.blob[f + 1], *track.blob[f - 2]);
+  return usual > 2 && std::abs(before - after) < 0.25 * usual && step > 1.75 * usual &&
+         step < 2.4 * usual && two > 0.95 * (before + step + after);
+}
 
 std::vector<Clip> split_clips(std::span<const FrameSummary> frames, const Track& track,
                               const std::vector<std::uint8_t>& repeats, const ExtractConfig& config,
@@ -162,21 +113,18 @@ std::vector<Clip> split_clips(std::span<const FrameSummary> frames, const Track&
   bool open = false;
   int run = 0;
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    const Blob* blob = track.blob[f];
-    if (!blob || blob->touches_border) {
-      ++(blob ? result.dropped_border : result.dropped_empty);
+    Fate& fate = result.fates[f];
+    fate = track.fate[f];
+    if (fate != Fate::Kept) {
       open = false;
       continue;
     }
-    if (open) {
-      const Blob& before = *track.blob[f - 1];
-      const bool jump = distance(*blob, before) > track.body;
-      const bool swell =
-          blob->area > kAreaJump * before.area || before.area > kAreaJump * blob->area;
-      if (jump || swell) open = false;
+    if (open && cuts(frames, track, f)) {
+      ++result.cuts;
+      open = false;
     }
     if (open && repeats[f]) {
-      ++result.duplicates;
+      fate = Fate::Duplicate;
       if (++run <= config.max_repeats) {
         ++clips.back().back().duration;
       } else {
@@ -185,13 +133,23 @@ std::vector<Clip> split_clips(std::span<const FrameSummary> frames, const Track&
       continue;
     }
     run = 0;
+    if (open && leaps_over_one(track, repeats, f)) {
+      ++result.missing;
+      ++clips.back().back().duration;
+      clips.back().push_back({static_cast<int>(f), 1, clips.back().back().time + 2});
+      continue;
+    }
     if (!open) clips.emplace_back();
+    const int time =
+        open ? clips.back().back().time + static_cast<int>(f) - clips.back().back().frame : 0;
     open = true;
-    clips.back().push_back({static_cast<int>(f), 1});
+    clips.back().push_back({static_cast<int>(f), 1, time});
   }
   std::erase_if(clips, [&](const Clip& clip) {
     const bool drop = static_cast<int>(clip.size()) < std::max(config.min_clip, 2);
-    if (drop) result.dropped_short += static_cast<int>(clip.size());
+    if (drop)
+      for (const Kept& kept : clip)
+        result.fates[static_cast<std::size_t>(kept.frame)] = Fate::Short;
     return drop;
   });
   return clips;
@@ -227,34 +185,44 @@ double rounded(double value, double steps) { return std::floor(value * steps + 0
 
 // Velocities in film time: positions of dropped duplicates lie on the line between their
 // neighbours.
-void set_velocities(const Track& track, const Clip& clip, double fps, double sigma,
-                    std::span<SampleRow> rows, double& squares) {
-  const int first = clip.front().frame;
-  const int count = clip.back().frame - first + 1;
+void set_velocities(const Clip& clip, double fps, double sigma, std::span<SampleRow> rows,
+                    double& squares) {
+  const int count = clip.back().time + 1;
   for (int axis = 0; axis < 2; ++axis) {
-    const auto place = [&](const Kept& k) {
-      const Blob& blob = *track.blob[static_cast<std::size_t>(k.frame)];
-      return axis == 0 ? blob.anchor_x : blob.anchor_y;
+    const auto place = [&](std::size_t k) {
+      return axis == 0 ? rows[k].anchor_x : rows[k].anchor_y;
     };
     std::vector<double> x(static_cast<std::size_t>(count));
     for (std::size_t k = 0; k < clip.size(); ++k) {
-      const int at = clip[k].frame - first;
-      x[static_cast<std::size_t>(at)] = place(clip[k]);
+      x[static_cast<std::size_t>(clip[k].time)] = place(k);
       if (k + 1 == clip.size()) break;
-      const int gap = clip[k + 1].frame - clip[k].frame;
+      const int gap = clip[k + 1].time - clip[k].time;
       for (int t = 1; t < gap; ++t)
-        x[static_cast<std::size_t>(at + t)] =
-            place(clip[k]) + (place(clip[k + 1]) - place(clip[k])) * t / gap;
+        x[static_cast<std::size_t>(clip[k].time + t)] =
+            place(k) + (place(k + 1) - place(k)) * t / gap;
     }
     const std::vector<double> raw = central_differences(x);
     smooth(x, sigma);
     const std::vector<double> v = central_differences(x);
     for (std::size_t k = 0; k < clip.size(); ++k) {
-      const auto at = static_cast<std::size_t>(clip[k].frame - first);
+      const auto at = static_cast<std::size_t>(clip[k].time);
       (axis == 0 ? rows[k].velocity_x : rows[k].velocity_y) = rounded(v[at] * fps, 1000);
       squares += (raw[at] - v[at]) * fps * ((raw[at] - v[at]) * fps);
     }
   }
+}
+
+// The ground line of a frame, without the flicker of single frames.
+double steady_ground(std::span<const FrameSummary> frames, const Track& track, int f) {
+  std::vector<double> lines;
+  const int n = static_cast<int>(frames.size());
+  for (int k = std::max(f - kGroundReach, 0); k <= std::min(f + kGroundReach, n - 1); ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (!track.blob[at] || track.fate[at] != Fate::Kept) continue;
+    const auto blob = static_cast<std::size_t>(track.blob[at] - frames[at].blobs.data());
+    if (blob < frames[at].ground.size()) lines.push_back(frames[at].ground[blob]);
+  }
+  return median(lines);
 }
 
 // One scale for the film: the longest side of the largest image, margins included, fits.
@@ -283,48 +251,109 @@ SampleRow make_row(const FrameSummary& frame, const Blob& blob, double scale) {
 }
 
 Error nothing_left(const Extraction& result, const ExtractConfig& config) {
-  return {ErrorCode::BadContent,
-          "no clip of " + std::to_string(config.min_clip) + " samples is left: " +
-              std::to_string(result.frames) + " frames, " + std::to_string(result.dropped_empty) +
-              " without a subject, " + std::to_string(result.dropped_border) +
-              " with the subject cut by the frame's border, " +
-              std::to_string(result.dropped_short) +
-              " in shorter clips; film the subject whole, for longer"};
+  std::string why;
+  const std::pair<Fate, const char*> kReasons[] = {
+      {Fate::Empty, " without a subject, "},
+      {Fate::Border, " with the subject cut by the frame's border, "},
+      {Fate::Touched, " with something that touches it, "},
+      {Fate::Hidden, " with the subject hidden, "},
+      {Fate::Short, " in shorter clips, "}};
+  for (const auto& [fate, text] : kReasons)
+    if (result.count(fate) > 0) why += std::to_string(result.count(fate)) + text;
+  why.resize(why.size() - std::min<std::size_t>(why.size(), 2));
+  return {ErrorCode::BadContent, "no clip of " + std::to_string(config.min_clip) +
+                                     " samples is left: " + std::to_string(result.fates.size()) +
+                                     " frames, " + why + "; film the subject whole, for longer"};
+}
+
+void add_mirrored(std::vector<SampleRow>& rows, std::vector<int>& labels, int clips) {
+  const std::size_t count = rows.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    rows.push_back(mirrored(rows[i], static_cast<int>(count + i), rows[i].clip + clips));
+    labels.push_back(labels[i]);
+  }
 }
 
 }  // namespace
 
+int Extraction::count(Fate fate) const noexcept {
+  return static_cast<int>(std::count(fates.begin(), fates.end(), fate));
+}
+
+SampleRow mirrored(const SampleRow& row, int sample, int clip) {
+  SampleRow other = row;
+  other.sample = sample;
+  other.clip = clip;
+  other.left = 2 * row.anchor_x - row.left - row.width;
+  other.velocity_x = row.velocity_x == 0 ? 0 : -row.velocity_x;
+  other.mirror_of = row.sample;
+  return other;
+}
+
+std::vector<double> ground_lines(const KeyedFrame& frame) {
+  std::vector<double> lines;
+  const auto width = static_cast<std::size_t>(frame.crop.width);
+  for (const Blob& blob : frame.blobs) {
+    double below = 0;
+    const double due = kGroundShare * blob.area;
+    double line = blob.box.y + blob.box.height;
+    for (int y = blob.box.y + blob.box.height - 1; y >= blob.box.y && due > 0; --y) {
+      double row = 0;
+      const std::size_t start = static_cast<std::size_t>(y - frame.crop.y) * width;
+      for (int x = blob.box.x; x < blob.box.x + blob.box.width; ++x) {
+        const std::size_t at = start + static_cast<std::size_t>(x - frame.crop.x);
+        if (frame.labels[at] == blob.label) row += frame.straight.rgba[4 * at + 3] / 255.0;
+      }
+      if (below + row >= due) {
+        line = y + 1 - (due - below) / row;
+        break;
+      }
+      below += row;
+    }
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
-                           const std::string& source, const ExtractConfig& config) {
-  if (frames.empty()) return Error{ErrorCode::BadContent, "no subject: the film has no frames"};
-  const Track track = follow(frames);
-  if (auto single = check_single(frames, track); !single) return single.error();
+                           const std::function<std::string(int)>& source,
+                           const ExtractConfig& config) {
+  const double rate = fps / config.stride;
+  const auto track = follow_subject(frames, rate, config.width, config.height, config.subject);
+  if (!track) return track.error();
   Extraction result;
-  result.frames = static_cast<int>(frames.size());
-  const auto repeats = find_duplicates(frames, track);
-  const auto clips = split_clips(frames, track, repeats, config, result);
+  result.fates.resize(frames.size());
+  const auto repeats = find_duplicates(frames, *track);
+  const auto clips = split_clips(frames, *track, repeats, config, result);
   if (clips.empty()) return nothing_left(result, config);
   result.clips = static_cast<int>(clips.size());
-  const double scale = film_scale(track, clips, config.max_size);
+  const double scale = film_scale(*track, clips, config.max_size);
   double squares = 0;
   for (std::size_t c = 0; c < clips.size(); ++c) {
     const std::size_t first = result.rows.size();
     for (const Kept& kept : clips[c]) {
       const auto f = static_cast<std::size_t>(kept.frame);
-      SampleRow row = make_row(frames[f], *track.blob[f], scale);
+      SampleRow row = make_row(frames[f], *track->blob[f], scale);
+      if (config.ground) row.anchor_y = rounded(steady_ground(frames, *track, kept.frame), 1000);
       row.sample = static_cast<int>(result.rows.size());
       row.clip = static_cast<int>(c);
-      row.source = source;
-      row.duration = kept.duration;
+      row.source = source(static_cast<int>(f));
+      row.duration = kept.duration * config.stride;
       result.rows.push_back(std::move(row));
-      result.labels.push_back(track.blob[f]->label);
+      result.labels.push_back(track->blob[f]->label);
     }
-    set_velocities(track, clips[c], fps, config.sigma, std::span(result.rows).subspan(first),
-                   squares);
+    set_velocities(clips[c], rate, config.sigma, std::span(result.rows).subspan(first), squares);
   }
   result.velocity_noise =
       rounded(std::sqrt(squares / static_cast<double>(result.rows.size())), 1000);
+  if (config.mirror) add_mirrored(result.rows, result.labels, result.clips);
   return result;
+}
+
+Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
+                           const std::string& source, const ExtractConfig& config) {
+  return extract(
+      frames, fps, [&source](int) { return source; }, config);
 }
 
 namespace {

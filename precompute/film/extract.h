@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "film/matte.h"
+#include "film/subject.h"
 #include "vsprite/image.h"
 #include "vsprite/result.h"
 
@@ -32,33 +34,46 @@ struct SampleRow {
   int mirror_of = -1;
 };
 
-/// What is kept of a keyed frame while the film is being followed (small: a few hundred bytes).
-struct FrameSummary {
-  int index = 0;
-  std::vector<Blob> blobs;
-  double difference = 0;
-};
-
 struct ExtractConfig {
   int max_size = 256;  ///< px, longest side of the largest sprite image, 16..4096
   double sigma = 1.2;  ///< frames, Gaussian that smooths positions before central differences, 0..8
   int min_clip = 8;    ///< frames; shorter clips are dropped
   int max_repeats = 3;  ///< more duplicates in a row start a new clip
+  SubjectChoice subject = {};
+  bool ground = false;  ///< anchor: true = ground line below the centroid; needs `ground`
+  bool mirror = false;  ///< mirrored samples N + i follow
+  int stride = 1;       ///< film frames from one summary to the next (a draft leaves out)
+  int width = 1 << 20, height = 1 << 20;  ///< of the film, px
 };
 
 struct Extraction {
   std::vector<SampleRow> rows;
   std::vector<int> labels;  ///< (rows) blob label to cut out of the keyed frame
-  int frames = 0, duplicates = 0, clips = 0;
-  int dropped_border = 0, dropped_empty = 0, dropped_short = 0;
+  std::vector<Fate> fates;  ///< (summaries)
+  int clips = 0;
+  int cuts = 0;               ///< clips that begin with a leap of the subject or the picture
+  int missing = 0;            ///< frames that the camera dropped, told by a leap of twice the way
   double velocity_noise = 0;  ///< px/s, rms of the part removed by smoothing
+
+  int count(Fate fate) const noexcept;
 };
 
-/// Follows the largest connected part; drops duplicates and frames that touch the border; splits
-/// clips where the subject leaves or the film cuts. Errors: BadContent (no subject; several
-/// subjects of like size, with where and when; nothing left, with the reason and what to do).
+/// Follows the subject (film/subject.h); drops duplicates and frames of no use; splits clips where
+/// the subject leaves, is touched or hidden, or where the film cuts. `fps`: of the film. `sources`:
+/// file name of each summary's film, without folders. Errors: those of follow_subject; BadContent
+/// (nothing left, with the reason and what to do).
+Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
+                           const std::function<std::string(int)>& source,
+                           const ExtractConfig& config);
+/// The same for one film.
 Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
                            const std::string& source, const ExtractConfig& config);
+
+/// The row of the mirror image of `row`: left and right exchanged about its anchor.
+SampleRow mirrored(const SampleRow& row, int sample, int clip);
+
+/// Ground line of each blob of a keyed frame, film px: below it lies a five-hundredth of the blob.
+std::vector<double> ground_lines(const KeyedFrame& frame);
 
 /// Cuts one sample's picture out of its keyed frame: straight alpha, area-averaged in linear light
 /// to row.scale. The result's size is row.width * scale by row.height * scale, whole pixels.

@@ -10,8 +10,10 @@ target_sources(vsprite_precompute PRIVATE
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp
+  film/subject.cpp
   film/extract.cpp
   film/contact.cpp
+  film/checkup.cpp
 )
 
 # Nobody reads errno after a square root; without it the loops over cells are vectorised. The

@@ -82,6 +82,7 @@ struct FilmReader::Impl {
   pid_t child = -1;
   int next = 0;        // index of the frame to come
   bool ended = false;  // all frames were handed out
+  bool whole = true;   // every frame is due, not a selection
 
   ~Impl() { stop(); }
 
@@ -155,7 +156,7 @@ struct FilmReader::Impl {
   Result<bool> finish() {
     ended = true;
     reap();
-    if (next < 0.98 * info.claimed_frames - 2)
+    if (whole && next < 0.98 * info.claimed_frames - 2)
       return Error{ErrorCode::CorruptData, path + ": film ends early: " + std::to_string(next) +
                                                " frames decoded, " +
                                                std::to_string(info.claimed_frames) +
@@ -186,6 +187,7 @@ Result<void> check_file(const std::string& path) {
 Result<void> FilmReader::Impl::start(const std::string& film, const Selection& selection) {
   if (auto checked = check_file(film); !checked) return checked.error();
   path = film;
+  whole = selection.mode == Selection::Every;
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return Error{ErrorCode::CannotRead, path + ": no pipe to a decoder: " + std::strerror(errno)};
@@ -211,6 +213,7 @@ Result<void> FilmReader::Impl::start(const std::string& film, const Selection& s
   info.width = hello.width;
   info.height = hello.height;
   info.claimed_frames = hello.claimed_frames;
+  info.counted_frames = hello.counted_frames;
   info.time_numerator = hello.time_numerator;
   info.time_denominator = hello.time_denominator;
   info.rotation = hello.rotation;
@@ -259,6 +262,13 @@ Result<FilmReader> FilmReader::open(const std::string& path) {
   return FilmReader(std::move(impl));
 }
 
+Result<FilmReader> FilmReader::open_bursts(const std::string& path, int count, int length) {
+  auto impl = std::make_unique<Impl>();
+  const Selection selection{Selection::Bursts, count, length};
+  if (auto started = impl->start(path, selection); !started) return started.error();
+  return FilmReader(std::move(impl));
+}
+
 Result<bool> FilmReader::read(Frame& frame) {
   Impl& film = *impl_;
   if (film.ended || film.fd < 0) return false;
@@ -275,7 +285,7 @@ Result<std::vector<Frame>> sample_frames(const std::string& path, int wanted) {
   std::vector<Frame> frames;
   for (const auto mode : {Selection::KeyFrames, Selection::Spread}) {
     FilmReader::Impl film;
-    if (auto started = film.start(path, {mode, wanted}); !started) return started.error();
+    if (auto started = film.start(path, {mode, wanted, 1}); !started) return started.error();
     const std::int64_t bytes = std::int64_t{3} * film.info.width * film.info.height / 2;
     const auto room = std::max<std::int64_t>(kRoom / std::max<std::int64_t>(bytes, 1), 16);
     int stride = 1;

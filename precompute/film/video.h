@@ -61,6 +61,7 @@ struct FilmInfo {
   std::uint32_t fps_numerator = 30;
   std::uint32_t fps_denominator = 1;
   int claimed_frames = 0;  ///< what the container says; 0 if it says nothing
+  int counted_frames = 0;  ///< packets of the film, where open_bursts() looked; else 0
 
   std::uint32_t time_numerator = 1, time_denominator = 1;  ///< seconds a tick of Frame::time
   int rotation = 0;  ///< degrees clockwise by which a player turns the picture: 0, 90, 180, 270
@@ -76,6 +77,10 @@ class FilmReader {
  public:
   /// Errors: NotFound, CannotRead, BadFormat (no film), LimitExceeded (over 16,384 px a side).
   static Result<FilmReader> open(const std::string& path);
+  /// Reads about `count` runs of `length` consecutive frames, spread over the film, in order; told
+  /// apart by Frame::index. Runs begin at key frames where there are enough of them. A film that
+  /// ends early is no error. Errors: those of open().
+  static Result<FilmReader> open_bursts(const std::string& path, int count, int length);
   FilmReader(FilmReader&&) noexcept;
   FilmReader& operator=(FilmReader&&) noexcept;
   ~FilmReader();

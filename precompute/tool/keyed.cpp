@@ -53,8 +53,10 @@ std::string chunk_name(int chunk) {
 
 }  // namespace
 
-FrameSummary summary_of(const KeyedFrame& frame) {
-  return {.index = frame.index, .blobs = frame.blobs, .difference = frame.difference};
+FrameSummary summary_of(const KeyedFrame& frame, bool ground) {
+  FrameSummary summary{.index = frame.index, .blobs = frame.blobs, .difference = frame.difference};
+  if (ground) summary.ground = ground_lines(frame);
+  return summary;
 }
 
 std::string pack_keyed(const KeyedFrame& frame) {

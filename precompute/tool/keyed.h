@@ -18,7 +18,8 @@ namespace vsprite {
 
 inline constexpr int kChunkFrames = 64;
 
-FrameSummary summary_of(const KeyedFrame& frame);
+/// `ground`: with the ground line of each blob.
+FrameSummary summary_of(const KeyedFrame& frame, bool ground);
 
 /// A keyed frame as bytes, its pictures compressed. Pure: any thread.
 std::string pack_keyed(const KeyedFrame& frame);

@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace vsprite {
@@ -16,8 +17,18 @@ int image_side(double film_side, double scale) {
   return static_cast<int>(std::lround(film_side * scale));
 }
 
+void flip(Image& image) {
+  for (int y = 0; y < image.height; ++y) {
+    auto* row = reinterpret_cast<std::array<std::uint8_t, 4>*>(image.rgba.data()) +
+                static_cast<std::ptrdiff_t>(y) * image.width;
+    std::reverse(row, row + image.width);
+  }
+}
+
+// A mirrored sample has no picture of its own.
 Result<Image> read_sprite(const Project& project, const SampleRow& row) {
-  const std::string path = project.sprite_path(row.sample);
+  const bool mirrored = row.mirror_of >= 0;
+  const std::string path = project.sprite_path(mirrored ? row.mirror_of : row.sample);
   Result<Image> image = read_png(path);
   if (!image) {
     // A picture that samples.csv names is content of the folder, not the user's operand.
@@ -25,7 +36,10 @@ Result<Image> read_sprite(const Project& project, const SampleRow& row) {
     return missing ? Error{ErrorCode::CorruptData, image.error().message} : image.error();
   }
   const int width = image_side(row.width, row.scale), height = image_side(row.height, row.scale);
-  if (image->width == width && image->height == height) return image;
+  if (image->width == width && image->height == height) {
+    if (mirrored) flip(*image);
+    return image;
+  }
   const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
   return Error{ErrorCode::CorruptData, path + ": " + size(image->width, image->height) +
                                            " px where samples.csv says " + size(width, height) +

@@ -52,10 +52,17 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     lines.push_back(count_text(r, "frames") + " frames -> " + count_text(r, "samples") +
                     " samples in " + count_text(r, "clips") + " clips, " +
                     count_text(r, "duplicates") + " duplicates");
-    const std::string dropped = counted(r, {{"dropped_border", "touch the border"},
+    const std::string dropped = counted(r, {{"dropped_border", "cut by the border"},
                                             {"dropped_empty", "without the subject"},
+                                            {"dropped_touched", "touched by something"},
+                                            {"dropped_hidden", "with the subject hidden"},
                                             {"dropped_short", "in clips that are too short"}});
     if (!dropped.empty()) lines.push_back("left out: " + dropped);
+    const std::string time =
+        counted(r, {{"cuts", "cuts"}, {"missing", "frames that the camera dropped"}});
+    if (!time.empty()) lines.push_back("found: " + time);
+    lines.push_back("noise of the velocity " + fixed_text(real_of(r, "velocity_noise"), 1) +
+                    " px/s");
   } else if (stage.name == "train") {
     const Json c = r.value("confusion", Json::object());
     lines.push_back(count_text(r, "labels") + " pairs labelled by the film, " +

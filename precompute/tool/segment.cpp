@@ -38,9 +38,12 @@ void report(const StageRun& run, double fraction) {
   if (run.listener.progress) run.listener.progress(std::min(fraction, 1.0));
 }
 
+int stride_of(const Settings& settings) { return settings.draft ? kDraftStride : 1; }
+
 /// One frame on its way through the pipeline.
 struct KeyingItem {
   FramePointer frame, before;
+  int position = 0;     ///< in the keyed store and among the summaries
   bool stands = false;  ///< its chunk is on disk already
   std::string packed;
   FrameSummary summary;
@@ -51,6 +54,8 @@ class KeyingPass {
  public:
   KeyingPass(StageRun& run, FilmReader& reader, const ScreenModel& screen, const KeyedStore& store)
       : run_(run),
+        stride_(stride_of(run.settings)),
+        ground_(run.settings.anchor == "ground"),
         reader_(reader),
         keyers_([&screen] { return Keyer(screen, MatteConfig{}); }),
         store_(store) {}
@@ -89,16 +94,18 @@ class KeyingPass {
   std::vector<FrameSummary> load(int chunk) const {
     std::vector<FrameSummary> summaries;
     if (const auto frames = store_.read(chunk))
-      for (const KeyedFrame& frame : *frames) summaries.push_back(summary_of(frame));
+      for (const KeyedFrame& frame : *frames) summaries.push_back(summary_of(frame, ground_));
     return summaries;
   }
 
   std::shared_ptr<KeyingItem> next(tbb::flow_control& flow) {
     auto item = std::make_shared<KeyingItem>();
     auto frame = std::make_shared<Frame>();
-    const auto more = reader_.read(*frame);
-    if (!more) fault_ = more.error();
-    if (!more || !*more) {
+    // A draft passes over the frames between.
+    for (int pass = read_ == 0 ? stride_ - 1 : 0; pass < stride_; ++pass) {
+      const auto more = reader_.read(*frame);
+      if (more && *more) continue;
+      if (!more) fault_ = more.error();
       flow.stop();
       return item;
     }
@@ -107,14 +114,14 @@ class KeyingPass {
     if (item->stands) item->summary = standing_[static_cast<std::size_t>(read_ % kChunkFrames)];
     item->before = std::move(last_);
     item->frame = last_ = std::move(frame);
-    ++read_;
+    item->position = read_++;
     return item;
   }
 
   void key(KeyingItem& item) {
     if (item.stands) return;
     const KeyedFrame keyed = keyers_.local().key(*item.frame, item.before.get());
-    item.summary = summary_of(keyed);
+    item.summary = summary_of(keyed, ground_);
     item.packed = pack_keyed(keyed);
     item.before.reset();
   }
@@ -123,9 +130,9 @@ class KeyingPass {
     const int index = item.frame->index;
     summaries_.push_back(std::move(item.summary));
     if (!item.stands && !write_fault_) {
-      chunk_number_ = index / kChunkFrames;
+      chunk_number_ = item.position / kChunkFrames;
       chunk_.push_back(std::move(item.packed));
-      if ((index + 1) % kChunkFrames == 0) write_chunk();
+      if ((item.position + 1) % kChunkFrames == 0) write_chunk();
     }
     const int claimed = reader_.info().claimed_frames;
     if (index % 8 == 0 && claimed > 0)
@@ -139,6 +146,8 @@ class KeyingPass {
   }
 
   StageRun& run_;
+  int stride_;
+  bool ground_;
   FilmReader& reader_;
   tbb::enumerable_thread_specific<Keyer> keyers_;
   const KeyedStore& store_;
@@ -168,7 +177,7 @@ Result<void> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
     i += 2 * stride;
   }
   if (frames.empty()) return {};
-  const auto png = encode_png(make_contact_sheet(frames, keyed));
+  const auto png = encode_png(make_contact_sheet(frames, keyed, {}));
   if (!png) return png.error();
   return write_file(run.project.path("contact.png"),
                     {reinterpret_cast<const char*>(png->data()), png->size()});
@@ -187,12 +196,13 @@ Result<void> clear_sprites(const Project& project) {
 
 /// Cuts the rows with the numbers `due`, all of one chunk, in parallel; writes them together.
 Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& frames,
-                       const Extraction& extraction, const std::vector<std::size_t>& due) {
+                       const Extraction& extraction, const std::vector<std::size_t>& due,
+                       int stride) {
   using Png = Result<std::vector<std::uint8_t>>;
   std::vector<Png> pictures(due.size(), Png(std::vector<std::uint8_t>{}));
   tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t k) {
     const SampleRow& row = extraction.rows[due[k]];
-    const auto& frame = frames[static_cast<std::size_t>(row.frame % kChunkFrames)];
+    const auto& frame = frames[static_cast<std::size_t>(row.frame / stride % kChunkFrames)];
     pictures[k] = encode_png(cut_sample(frame, extraction.labels[due[k]], row));
   });
   std::vector<NamedBytes> files;
@@ -207,11 +217,14 @@ Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& fr
 Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extraction& extraction,
                          bool resumed) {
   const auto& rows = extraction.rows;
-  for (std::size_t begin = 0; begin < rows.size();) {
-    const int chunk = rows[begin].frame / kChunkFrames;
+  const int stride = stride_of(run.settings);
+  for (std::size_t begin = 0; begin < rows.size() && rows[begin].mirror_of < 0;) {
+    const int chunk = rows[begin].frame / stride / kChunkFrames;
     std::size_t end = begin;
     std::vector<std::size_t> due;
-    for (; end < rows.size() && rows[end].frame / kChunkFrames == chunk; ++end) {
+    for (; end < rows.size() && rows[end].mirror_of < 0 &&
+           rows[end].frame / stride / kChunkFrames == chunk;
+         ++end) {
       std::error_code error;
       if (!resumed || !fs::exists(run.project.sprite_path(rows[end].sample), error))
         due.push_back(end);
@@ -222,7 +235,8 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
         return Error{ErrorCode::CorruptData, run.project.path("keyed") + ": chunk " +
                                                  std::to_string(chunk) +
                                                  " was damaged meanwhile: run it again"};
-      if (auto cut = cut_chunk(run.project, *frames, extraction, due); !cut) return cut.error();
+      if (auto cut = cut_chunk(run.project, *frames, extraction, due, stride); !cut)
+        return cut.error();
     }
     begin = end;
     report(run,
@@ -232,21 +246,32 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
 }
 
 Json segment_result(const std::string& name, const FilmInfo& info, const ScreenModel& screen,
-                    const Extraction& extraction) {
+                    const Extraction& extraction, int stride) {
+  const std::size_t frames = extraction.fates.size() * static_cast<std::size_t>(stride);
   const int kept = static_cast<int>(extraction.rows.size());
   return {{"film", name},
           {"width", info.width},
           {"height", info.height},
           {"fps", {info.fps_numerator, info.fps_denominator}},
           {"background", screen.reason},
-          {"frames", extraction.frames},
-          {"duplicates", extraction.duplicates},
+          {"frames", frames},
+          {"duplicates", extraction.count(Fate::Duplicate)},
           {"samples", kept},
           {"clips", extraction.clips},
-          {"dropped_border", extraction.dropped_border},
-          {"dropped_empty", extraction.dropped_empty},
-          {"dropped_short", extraction.dropped_short},
+          {"cuts", extraction.cuts},
+          {"missing", extraction.missing},
+          {"dropped_border", extraction.count(Fate::Border)},
+          {"dropped_empty", extraction.count(Fate::Empty)},
+          {"dropped_touched", extraction.count(Fate::Touched)},
+          {"dropped_hidden", extraction.count(Fate::Hidden)},
+          {"dropped_short", extraction.count(Fate::Short)},
           {"velocity_noise", extraction.velocity_noise}};
+}
+
+SubjectChoice subject_of(const std::string& text) {
+  if (text == "only") return {SubjectChoice::kOnly};
+  if (text == "largest") return {SubjectChoice::kLargest};
+  return {std::atoi(text.c_str())};
 }
 
 }  // namespace
@@ -272,9 +297,17 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   const auto summaries = KeyingPass(run, *reader, *screen, *store).run();
   if (!summaries) return summaries.error();
 
-  const ExtractConfig config{.max_size = run.settings.max_size,
+  const ExtractConfig config{.max_size = run.settings.draft
+                                             ? std::min(run.settings.max_size, kDraftSize)
+                                             : run.settings.max_size,
                              .sigma = run.settings.smooth,
-                             .min_clip = run.settings.min_clip};
+                             .min_clip = run.settings.min_clip,
+                             .subject = subject_of(run.settings.subject),
+                             .ground = run.settings.anchor == "ground",
+                             .mirror = run.settings.mirror,
+                             .stride = stride_of(run.settings),
+                             .width = info.width,
+                             .height = info.height};
   const double fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
   const auto extraction = extract(*summaries, fps, name, config);
   if (!extraction)
@@ -288,7 +321,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (auto cut = cut_sprites(run, *store, *extraction, *resumed); !cut) return cut.error();
   if (auto sheet = write_contact_sheet(run, *screen, *sampled); !sheet) return sheet.error();
   if (auto wrote = write_file(run.project.path("samples.csv"), table); !wrote) return wrote.error();
-  return segment_result(name, info, *screen, *extraction);
+  return segment_result(name, info, *screen, *extraction, stride_of(run.settings));
 }
 
 }  // namespace vsprite

@@ -147,6 +147,37 @@ void add_stage_options(Row& t) {
     s.key = v;
     return {};
   };
+  t.flag("draft", &Settings::draft,
+         "every second frame, pictures of at most 128 px: a first look in a third of the time",
+         kSegment);
+  t.text("subject", "WHICH", &Settings::subject,
+         "only (refuses several), largest, or its number in the picture of a refusal", kSegment);
+  t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
+    int number = 0;
+    const auto [end, error] = std::from_chars(v.data(), v.data() + v.size(), number);
+    const bool counts =
+        error == std::errc{} && end == v.data() + v.size() && number >= 1 && number <= 32;
+    if (v != "only" && v != "largest" && !counts)
+      return bad("subject", v, "only, largest or a number from 1 to 32");
+    s.subject = v;
+    return {};
+  };
+  t.text("anchor", "POINT", &Settings::anchor,
+         "what stands on the spot: the body's centre, or the ground below it", kSegment,
+         "centroid|ground");
+  t.flag("mirror", &Settings::mirror, "mirrored samples too: a film to the right also goes left",
+         kSegment);
+  t.whole("preview", "N", &Settings::preview, 0, 200,
+          "no sprites, but N frames spread over the film on one contact sheet", " segment ");
+  t.options.back().in_config = false;
+  t.text("background", "FILE|#RRGGBB", &Settings::background,
+         "with --preview: the game's background, a PNG or a colour", " segment ");
+  t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
+    const auto color = v.starts_with("#") ? parse_key(v) : Result<KeyConfig>(KeyConfig{});
+    if (!color || v.empty()) return bad("background", v, "a PNG file or #RRGGBB");
+    s.background = v;
+    return {};
+  };
   t.whole("max-size", "PX", &Settings::max_size, 16, 4096,
           "longest side of the largest sprite picture, px", kSegment);
   t.real("smooth", "FRAMES", &Settings::smooth, 0, 8, false,
@@ -215,7 +246,8 @@ void add_path_options(Row& t) {
 }
 
 void add_common_options(Row& t) {
-  t.text("output", "FILE", &Settings::output, "the file to write", " build pack dump play path ")
+  t.text("output", "FILE", &Settings::output, "the file to write",
+         " segment build pack dump play path ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",

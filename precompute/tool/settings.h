@@ -30,6 +30,10 @@ struct Settings {
   // Making a sprite.
   std::string key = "auto";
   int max_size = 256;
+  bool draft = false;
+  std::string subject = "only";
+  std::string anchor = "centroid";
+  bool mirror = false;
   double smooth = 1.2;
   int min_clip = 8;
   int pairs = 3000;
@@ -41,6 +45,10 @@ struct Settings {
   double w1 = 0.6;
   double cap = 0.8;
   int free_steps = 5;
+
+  // Looking before building.
+  int preview = 0;  ///< frames on the contact sheet; 0: none is asked for
+  std::string background = "#9cc4d8";
 
   // Playing it.
   std::string keys;

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -67,10 +68,16 @@ Result<StageKey> segment_key(StageRun& run) {
   const auto sum = hash_file(run.film);
   if (!sum) return sum.error();
   const Settings& s = run.settings;
-  return StageKey{
-      "segment",
-      {{"key", s.key}, {"max-size", s.max_size}, {"smooth", s.smooth}, {"min-clip", s.min_clip}},
-      {{"film", hex64(*sum)}}};
+  return StageKey{"segment",
+                  {{"key", s.key},
+                   {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
+                   {"draft", s.draft},
+                   {"subject", s.subject},
+                   {"anchor", s.anchor},
+                   {"mirror", s.mirror},
+                   {"smooth", s.smooth},
+                   {"min-clip", s.min_clip}},
+                  {{"film", hex64(*sum)}}};
 }
 
 Result<Json> segment(StageRun& run) {

@@ -51,6 +51,9 @@ Result<std::vector<StageOutcome>> run_stages(StageRun& run, int first, int last)
 /// Index into kStages. Pre: it is one of them.
 int stage_index(std::string_view name);
 
+/// `--draft`: every second frame, and no picture larger than this, px.
+inline constexpr int kDraftStride = 2, kDraftSize = 128;
+
 /// film -> sprites/*.png, samples.csv, contact.png (segment.cpp). `origin`: sum over film and
 /// settings.
 Result<Json> segment_film(StageRun& run, const std::string& origin);

@@ -13,6 +13,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/path_film.cpp
   tool/path_script.cpp
   tool/pictures.cpp
+  tool/preview.cpp
   tool/project.cpp
   tool/report.cpp
   tool/segment.cpp
@@ -27,6 +28,7 @@ add_executable(vsprite
   tool/commands/build.cpp
   tool/commands/console.cpp
   tool/commands/doctor.cpp
+  tool/commands/doctor_film.cpp
   tool/commands/dump.cpp
   tool/commands/help.cpp
   tool/commands/inspect.cpp

@@ -125,7 +125,7 @@ std::string read_row(const std::vector<Field>& fields, const std::string& where,
   reader.take(row.tag);
   reader.take("duration", row.duration, 1, 65535);
   reader.take("scale", row.scale, 1e-6, 1e3);
-  reader.take("mirror_of", row.mirror_of, -1, kMany);
+  reader.take("mirror_of", row.mirror_of, -1, due_sample - 1);
   return reader.problem();
 }
 

@@ -17,6 +17,40 @@ done
   fail "samples.csv has other columns"
 first=$(sum c.vsp)
 
+# A look before the build.
+expect 0 vsprite segment "a film.mp4" --preview 4 --json
+is_json /background /sheet /rows/3/frame /rows/3/area
+[ -s "a film.preview.png" ] || fail "no preview was written"
+expect 0 vsprite segment "a film.mp4" --preview 2 --background "a film.preview.png" -o p.png
+[ -s p.png ] || fail "no preview over a picture was written"
+expect 66 vsprite segment "a film.mp4" --preview 2 --background absent.png
+says "absent.png"; one_sentence
+[ -e "a film.work" ] && fail "a preview made a work folder"
+expect 0 vsprite doctor "a film.mp4" --json
+is_json /ok /film/usable_seconds /film/heading_seconds/left /film/camera_shift_px /findings/0/name
+prints '"name": "motion"'
+
+# A draft: half the samples, each for two frames; small; the full build follows it in its place.
+expect 0 vsprite build "a film.mp4" -o d.vsp --draft --mirror --max-size 64 --json
+prints '"frames": 240'; prints '"samples": 240'
+[ "$(cut -d, -f15 d.work/samples.csv | sort -u | head -1)" = 2 ] || fail "a draft's samples do not last two frames"
+[ -e d.work/sprites/000119.png ] && [ ! -e d.work/sprites/000120.png ] || fail "mirrored samples have pictures, or others have none"
+expect 0 vsprite validate d.vsp
+expect 0 vsprite build "a film.mp4" -o d.vsp
+[ "$(sum d.vsp)" = "$first" ] || fail "a build after a draft differs from one without"
+
+# A sprite retouched by hand stays; what depends on it is made again, and its return undoes it.
+cp c.work/sprites/000007.png kept.png
+ffmpeg -v error -y -i kept.png -vf lutrgb=r=40:b=220 -pix_fmt rgba c.work/sprites/000007.png
+edited=$(sum c.work/sprites/000007.png)
+expect 0 vsprite build "a film.mp4" -o c.vsp
+grep -q "segment: up to date" stderr || fail "a retouched sprite was cut again"
+[ "$(sum c.work/sprites/000007.png)" = "$edited" ] || fail "a retouched sprite is lost"
+[ "$(sum c.vsp)" != "$first" ] || fail "a retouched sprite is not in the pack"
+cp kept.png c.work/sprites/000007.png
+expect 0 vsprite build "a film.mp4" -o c.vsp
+[ "$(sum c.vsp)" = "$first" ] || fail "undoing a retouch gives another pack"
+
 expect 0 vsprite build "a film.mp4" -o c.vsp
 [ "$(grep -c 'up to date' stderr)" = 5 ] || fail "a second run did something"
 prints "next: vsprite play c.vsp"

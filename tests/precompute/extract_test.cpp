@@ -50,7 +50,7 @@ TEST(Extract, DuplicateGivesItsTimeToTheSampleBefore) {
   }
   const auto result = extract(frames, 30, "a.mp4", {});
   ASSERT_TRUE(result) << result.error().message;
-  EXPECT_EQ(result->duplicates, 3);
+  EXPECT_EQ(result->count(Fate::Duplicate), 3);
   EXPECT_EQ(result->clips, 1);
   ASSERT_EQ(result->rows.size(), 27u);
   EXPECT_EQ(result->rows[9].duration, 2);
@@ -80,8 +80,8 @@ TEST(Extract, ClipsEndWhereTheSubjectLeavesOrTheFilmCuts) {
   const auto result = extract(frames, 30, "a.mp4", {});
   ASSERT_TRUE(result) << result.error().message;
   EXPECT_EQ(result->clips, 3);
-  EXPECT_EQ(result->dropped_border, 4);
-  EXPECT_EQ(result->dropped_empty, 1);
+  EXPECT_EQ(result->count(Fate::Border), 4);
+  EXPECT_EQ(result->count(Fate::Empty), 1);
   EXPECT_EQ(result->rows.size(), 55u);
   for (const SampleRow& row : result->rows)
     EXPECT_EQ(row.clip, row.frame < 20 ? 0 : row.frame < 40 ? 1 : 2);
@@ -92,7 +92,7 @@ TEST(Extract, ShortClipsAreDropped) {
   frames[5].blobs.clear();
   const auto result = extract(frames, 30, "a.mp4", {});
   ASSERT_TRUE(result);
-  EXPECT_EQ(result->dropped_short, 5);
+  EXPECT_EQ(result->count(Fate::Short), 5);
   EXPECT_EQ(result->rows.front().frame, 6);
 }
 

@@ -89,12 +89,13 @@ int main(int argc, char** argv) {
   auto extraction = extract(summaries, fps, path, {});
   if (!extraction) return fail(extraction.error());
   std::printf(
-      "%d frames: %zu samples in %d clips, %d duplicates, %d at the border, %d empty, %d in short "
+      "%zu frames: %zu samples in %d clips, %d duplicates, %d at the border, %d empty, %d in short "
       "clips, "
       "velocity noise %.2f px/s, scale %.3f\n",
-      extraction->frames, extraction->rows.size(), extraction->clips, extraction->duplicates,
-      extraction->dropped_border, extraction->dropped_empty, extraction->dropped_short,
-      extraction->velocity_noise, extraction->rows[0].scale);
+      extraction->fates.size(), extraction->rows.size(), extraction->clips,
+      extraction->count(Fate::Duplicate), extraction->count(Fate::Border),
+      extraction->count(Fate::Empty), extraction->count(Fate::Short), extraction->velocity_noise,
+      extraction->rows[0].scale);
   if (argc > 7) {
     std::ofstream csv(argv[7]);
     for (const FrameSummary& s : summaries) {

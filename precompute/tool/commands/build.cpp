@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // build and its five stages.
+#include <cstdio>
 #include <filesystem>
 
 #include "tool/commands/verbs.h"
+#include "tool/preview.h"
 #include "tool/report.h"
 
 namespace vsprite {
@@ -79,7 +81,37 @@ std::string shell_word(const std::string& word) {
   return out + "'";
 }
 
-Result<int> run_segment(const Settings& s, Console& c) { return run_one(s, c, 0); }
+namespace {
+
+Result<int> run_preview(const Settings& settings, Console& console) {
+  const auto places = find_places(settings, kSegment);
+  if (!places) return places.error();
+  const std::string output = settings.output.empty()
+                                 ? fs::path(settings.film).stem().string() + ".preview.png"
+                                 : settings.output;
+  const auto made = preview_film(settings, places->film, output);
+  if (!made) return made.error();
+  std::string text = "background: " + (*made)["background"].get<std::string>() + "\n";
+  text += "  frame  parts  area px^2\n";
+  for (const Json& row : (*made)["rows"]) {
+    char line[80];
+    std::snprintf(line, sizeof line, "%7d%7d%11.0f%s\n", row["frame"].get<int>(),
+                  row["parts"].get<int>(), row.value("area", 0.0),
+                  row.value("cut_by_border", false) ? "  cut by the border" : "");
+    text += line;
+  }
+  console.text(text + "written: " + output + "\n");
+  console.document(*made);
+  console.next("vsprite build " + shell_word(settings.film) +
+               (settings.key == "auto" ? "" : " --key " + shell_word(settings.key)));
+  return 0;
+}
+
+}  // namespace
+
+Result<int> run_segment(const Settings& s, Console& c) {
+  return s.preview > 0 ? run_preview(s, c) : run_one(s, c, kSegment);
+}
 Result<int> run_train(const Settings& s, Console& c) { return run_one(s, c, 1); }
 Result<int> run_transitions(const Settings& s, Console& c) { return run_one(s, c, 2); }
 Result<int> run_solve(const Settings& s, Console& c) { return run_one(s, c, 3); }

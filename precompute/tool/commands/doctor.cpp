@@ -3,6 +3,8 @@
 //
 // doctor: what is missing on this machine, or broken in a film, a pack or a work folder - and what
 // to do about it. Changes nothing.
+#include "tool/commands/doctor.h"
+
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <filesystem>
 #include <set>
 
-#include "film/video.h"
 #include "tool/commands/verbs.h"
 #include "tool/pictures.h"
 #include "tool/project.h"
@@ -21,17 +22,6 @@ namespace vsprite {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Finding {
-  const char* state;  ///< "ok", "warning" or "broken"
-  std::string message;
-  std::string remedy;  ///< empty where nothing is to be done
-};
-using Findings = std::vector<Finding>;
-
-constexpr const char* kOk = "ok";
-constexpr const char* kWarning = "warning";
-constexpr const char* kBroken = "broken";
 
 // ---- the machine ----
 
@@ -49,14 +39,15 @@ bool on_path(const std::string& program) {
 
 void check_machine(const std::string& folder, Findings& findings) {
   if (on_path("ffmpeg"))
-    findings.push_back({kOk, "the program ffmpeg is there, for recording films", {}});
+    findings.push_back({"machine", kOk, "the program ffmpeg is there, for recording films", {}});
   else
-    findings.push_back({kWarning, "the program ffmpeg is missing: films cannot be recorded",
+    findings.push_back({"machine", kWarning,
+                        "the program ffmpeg is missing: films cannot be recorded",
                         "apt install ffmpeg"});
   const auto pages = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
                      static_cast<double>(::sysconf(_SC_PAGE_SIZE));
   constexpr double kGigabyte = 1e9;
-  findings.push_back({pages < 2 * kGigabyte ? kWarning : kOk,
+  findings.push_back({"machine", pages < 2 * kGigabyte ? kWarning : kOk,
                       fixed_text(pages / kGigabyte, 1) + " GB of memory, " +
                           std::to_string(::sysconf(_SC_NPROCESSORS_ONLN)) + " processors",
                       pages < 2 * kGigabyte ? "lower --max-size and --jobs" : ""});
@@ -65,59 +56,28 @@ void check_machine(const std::string& folder, Findings& findings) {
   const double free_bytes = static_cast<double>(space.available);
   if (!error)
     findings.push_back(
-        {free_bytes < kGigabyte ? kWarning : kOk,
+        {"machine", free_bytes < kGigabyte ? kWarning : kOk,
          fixed_text(free_bytes / kGigabyte, 1) + " GB free in " + folder,
          free_bytes < kGigabyte ? "make room, or name another place with --work" : ""});
   const bool display =
       std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
   if (!display)
-    findings.push_back({kWarning, "no display: `play` opens no window here",
+    findings.push_back({"machine", kWarning, "no display: `play` opens no window here",
                         "use `vsprite play --headless --record FILE.mp4`"});
 }
 
 // ---- a film, a pack ----
 
-void check_film(const std::string& path, Findings& findings) {
-  auto reader = FilmReader::open(path);
-  if (!reader) {
-    findings.push_back({kBroken, reader.error().message,
-                        "play it with another program, or convert it: ffmpeg -i FILE new.mp4"});
-    return;
-  }
-  const FilmInfo& info = reader->info();
-  Frame frame;
-  int frames = 0;
-  for (;;) {
-    const auto more = reader->read(frame);
-    if (!more) {
-      findings.push_back({kBroken, more.error().message,
-                          "copy it again from its source, or convert it: ffmpeg -i FILE new.mp4"});
-      return;
-    }
-    if (!*more) break;
-    ++frames;
-  }
-  const double fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
-  findings.push_back({kOk,
-                      path + ": " + std::to_string(frames) + " frames of " +
-                          std::to_string(info.width) + "x" + std::to_string(info.height) + " px, " +
-                          fixed_text(fps, 2) + " a second, " + fixed_text(frames / fps, 1) + " s",
-                      {}});
-  if (frames / fps < 20)
-    findings.push_back({kWarning, path + ": under 20 s: few jumps will be found",
-                        "film longer, with every direction and turn"});
-}
-
 void check_pack(const std::string& path, Findings& findings) {
   const auto issues = verify_pack(path);
   if (!issues) {
-    findings.push_back({kBroken, issues.error().message, "make it anew: vsprite pack"});
+    findings.push_back({"pack", kBroken, issues.error().message, "make it anew: vsprite pack"});
     return;
   }
-  if (issues->empty()) findings.push_back({kOk, path + ": whole, every byte checked", {}});
+  if (issues->empty()) findings.push_back({"pack", kOk, path + ": whole, every byte checked", {}});
   for (const PackIssue& issue : *issues)
-    findings.push_back({issue.severity == "error" ? kBroken : kWarning, path + ": " + issue.message,
-                        "make it anew: vsprite pack"});
+    findings.push_back({"pack", issue.severity == "error" ? kBroken : kWarning,
+                        path + ": " + issue.message, "make it anew: vsprite pack"});
 }
 
 // ---- a work folder ----
@@ -127,11 +87,12 @@ void check_leftovers(const Project& project, Findings& findings) {
   for (const char* sub : {"", "/sprites", "/keyed"})
     for (const auto& entry : fs::directory_iterator(project.folder() + sub, error))
       if (is_temporary_name(entry.path().filename().string()))
-        findings.push_back({kWarning,
+        findings.push_back({"work", kWarning,
                             entry.path().string() + ": left by a process that was stopped",
                             "nothing: the next run removes it"});
   if (fs::exists(project.path("keyed"), error))
-    findings.push_back({kWarning, project.path("keyed") + ": a segmentation was stopped on its way",
+    findings.push_back({"work", kWarning,
+                        project.path("keyed") + ": a segmentation was stopped on its way",
                         "run the same `vsprite segment` or `build` again: it goes on from there"});
 }
 
@@ -147,21 +108,22 @@ void check_pictures(const Project& project, const std::vector<SampleRow>& rows,
     const auto picture = reader.picture(row.sample);
     if (!picture && ++broken <= kNamed)
       findings.push_back(
-          {kBroken, picture.error().message,
+          {"work", kBroken, picture.error().message,
            "put the picture back, or cut all anew: vsprite segment FILM --force segment"});
   }
   if (broken > kNamed)
-    findings.push_back({kBroken,
+    findings.push_back({"work", kBroken,
                         std::to_string(broken - kNamed) + " more pictures are missing or damaged",
                         "vsprite segment FILM --force segment"});
   if (broken == 0)
-    findings.push_back({kOk, std::to_string(rows.size()) + " samples, every picture is there", {}});
+    findings.push_back(
+        {"work", kOk, std::to_string(rows.size()) + " samples, every picture is there", {}});
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(project.path("sprites"), error)) {
     const std::string name = entry.path().filename().string();
     if (known.count(name) == 0 && !is_temporary_name(name))
-      findings.push_back(
-          {kWarning, entry.path().string() + ": no row of samples.csv names it", "remove it"});
+      findings.push_back({"work", kWarning,
+                          entry.path().string() + ": no row of samples.csv names it", "remove it"});
   }
 }
 
@@ -174,7 +136,7 @@ void check_stage(const Project& project, const char* stage, const std::string& s
   const Json* record = project.record(stage);
   if (record == nullptr) {
     due = true;
-    findings.push_back({kWarning, std::string(stage) + ": has not finished here", remedy});
+    findings.push_back({"work", kWarning, std::string(stage) + ": has not finished here", remedy});
     return;
   }
   std::string changed;
@@ -186,28 +148,28 @@ void check_stage(const Project& project, const char* stage, const std::string& s
   }
   if (!changed.empty() || earlier_due) {
     due = true;
-    findings.push_back({kWarning,
+    findings.push_back({"work", kWarning,
                         std::string(stage) + ": out of date" +
                             (changed.empty() ? "" : ", changed since: " + changed),
                         remedy});
     return;
   }
-  findings.push_back({kOk, std::string(stage) + ": up to date", {}});
+  findings.push_back({"work", kOk, std::string(stage) + ": up to date", {}});
 }
 
 template <class T>
 void check_file(const Result<T>& file, Findings& findings, const char* remedy) {
   if (file || file.error().code == ErrorCode::NotFound) return;  // absence is the stage's finding
-  findings.push_back({kBroken, file.error().message, remedy});
+  findings.push_back({"work", kBroken, file.error().message, remedy});
 }
 
 void check_work(const std::string& folder, Findings& findings) {
   if (const int holder = lock_holder(folder); holder > 0)
-    findings.push_back(
-        {kWarning, folder + ": in use by process " + std::to_string(holder), "wait for it to end"});
+    findings.push_back({"work", kWarning, folder + ": in use by process " + std::to_string(holder),
+                        "wait for it to end"});
   const auto project = Project::look(folder);
   if (!project) {
-    findings.push_back({kBroken, project.error().message, "vsprite build FILM"});
+    findings.push_back({"work", kBroken, project.error().message, "vsprite build FILM"});
     return;
   }
   check_leftovers(*project, findings);
@@ -215,7 +177,7 @@ void check_work(const std::string& folder, Findings& findings) {
   if (!rows) {
     const bool absent = rows.error().code == ErrorCode::NotFound;
     findings.push_back(
-        {kBroken, rows.error().message,
+        {"work", kBroken, rows.error().message,
          absent ? "vsprite build FILM; what an interrupted run had finished is not done again"
                 : "mend the line, or cut all anew: vsprite segment FILM --force segment"});
     return;
@@ -246,7 +208,8 @@ Result<int> run_doctor(const Settings& settings, Console& console) {
   const bool folder = fs::is_directory(operand, error);
   const bool pack = !folder && fs::path(operand).extension() == ".vsp";
   if (pack) check_pack(operand, findings);
-  if (!operand.empty() && !folder && !pack) check_film(operand, findings);
+  Json measures;
+  if (!operand.empty() && !folder && !pack) check_film(settings, operand, findings, measures);
   if (!operand.empty() || !settings.work.empty()) {
     const std::string work = find_work_folder(settings.work, operand, {});
     if (folder || !settings.work.empty() || fs::is_directory(work, error))
@@ -261,8 +224,10 @@ Result<int> run_doctor(const Settings& settings, Console& console) {
     broken |= finding.state == kBroken;
     text += std::string(finding.state) + ": " + finding.message +
             (finding.remedy.empty() ? "" : "\n    -> " + finding.remedy) + "\n";
-    list.push_back(
-        {{"state", finding.state}, {"message", finding.message}, {"remedy", finding.remedy}});
+    list.push_back({{"name", finding.name},
+                    {"state", finding.state},
+                    {"message", finding.message},
+                    {"remedy", finding.remedy}});
   }
   const std::string made =
       find_pack_path(find_work_folder(settings.work, operand, {}), operand, {});
@@ -271,7 +236,9 @@ Result<int> run_doctor(const Settings& settings, Console& console) {
   else if (fs::exists(made, error))
     next = "vsprite play " + shell_word(made);
   console.text(text);
-  console.document({{"ok", !broken}, {"findings", list}});
+  Json document = {{"ok", !broken}, {"findings", list}};
+  if (!measures.is_null()) document["film"] = measures;
+  console.document(document);
   console.next(next);
   return broken ? 3 : 0;
 }

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// Parts that meet, hide, lie about: which one is the subject, and what becomes of each frame.
+#include "film/subject.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "film/extract.h"
+
+namespace vsprite {
+namespace {
+
+constexpr int kWidth = 640, kHeight = 480;
+
+Blob blob_at(double x, double y, int wide = 40, int high = 40) {
+  Blob blob;
+  blob.box = {static_cast<int>(x) - wide / 2, static_cast<int>(y) - high / 2, wide, high};
+  blob.area = 0.8 * wide * high;
+  blob.anchor_x = x;
+  blob.anchor_y = y;
+  blob.label = 1;
+  blob.touches_border = blob.box.x <= 0 || blob.box.y <= 0 ||
+                        blob.box.x + blob.box.width >= kWidth ||
+                        blob.box.y + blob.box.height >= kHeight;
+  return blob;
+}
+
+// A subject that walks to the right, 2 px a frame, in the middle of the picture.
+std::vector<FrameSummary> walk(int count) {
+  std::vector<FrameSummary> frames;
+  for (int i = 0; i < count; ++i) frames.push_back({i, {blob_at(100 + 2 * i, 240)}, 5.0});
+  return frames;
+}
+
+void add(FrameSummary& frame, Blob blob) {
+  blob.label = static_cast<int>(frame.blobs.size()) + 1;
+  frame.blobs.push_back(blob);
+  std::sort(frame.blobs.begin(), frame.blobs.end(),
+            [](const Blob& a, const Blob& b) { return a.area > b.area; });
+}
+
+Track follow(const std::vector<FrameSummary>& frames, int number = SubjectChoice::kOnly) {
+  auto track = follow_subject(frames, 30, kWidth, kHeight, {number});
+  EXPECT_TRUE(track) << track.error().message;
+  return *track;
+}
+
+// A hand reaches down from the upper border, holds the subject, lets go and leaves.
+TEST(Subject, AHandEndsTheClipUntilItHasLeft) {
+  auto frames = walk(120);
+  for (int f = 40; f < 90; ++f) {
+    auto& blobs = frames[static_cast<std::size_t>(f)].blobs;
+    const double x = blobs[0].anchor_x;
+    if (f >= 50 && f < 70)
+      blobs = {blob_at(x, 130, 60, 262)};  // one part, from the border to below the subject
+    else
+      add(frames[static_cast<std::size_t>(f)], blob_at(x, 80, 60, 180));
+  }
+  const Track track = follow(frames);
+  for (int f = 0; f < 120; ++f) {
+    const Fate due = f >= 50 && f < 90 ? Fate::Touched : Fate::Kept;
+    EXPECT_EQ(track.fate[static_cast<std::size_t>(f)], due) << f;
+  }
+}
+
+TEST(Subject, WalkingOutOfThePictureIsNoTouch) {
+  std::vector<FrameSummary> frames;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 600 + i;
+    if (x - 20 < kWidth) frames.push_back({i, {blob_at(std::min(x, 630.0), 240)}, 5.0});
+  }
+  const Track track = follow(frames);
+  EXPECT_EQ(track.fate.front(), Fate::Kept);
+  EXPECT_EQ(track.fate.back(), Fate::Border);
+  EXPECT_EQ(std::count(track.fate.begin(), track.fate.end(), Fate::Touched), 0);
+}
+
+TEST(Subject, AThingThatLiesStillIsNoRivalAndHidesTheSubjectWhereTheyTouch) {
+  auto frames = walk(200);
+  for (int f = 20; f < 200; ++f) {
+    auto& blobs = frames[static_cast<std::size_t>(f)].blobs;
+    const double x = blobs[0].anchor_x;
+    if (std::abs(x - 400) < 45)
+      blobs = {blob_at(0.5 * (x + 400), 240, 80, 40)};
+    else
+      add(frames[static_cast<std::size_t>(f)], blob_at(400, 240, 44, 44));
+  }
+  const Track track = follow(frames);
+  for (int f = 0; f < 200; ++f) {
+    const auto at = static_cast<std::size_t>(f);
+    const double x = 100 + 2 * f;
+    const bool meet = f >= 20 && std::abs(x - 400) < 45;
+    EXPECT_EQ(track.fate[at], meet ? Fate::Hidden : Fate::Kept) << f;
+    if (!meet) {
+      EXPECT_NEAR(track.blob[at]->anchor_x, x, 1e-9) << f;
+    }
+  }
+}
+
+TEST(Subject, RestingAloneIsNotLyingAbout) {
+  std::vector<FrameSummary> frames;
+  for (int i = 0; i < 200; ++i) frames.push_back({i, {blob_at(300, 240)}, 0.2});
+  const Track track = follow(frames);
+  EXPECT_EQ(std::count(track.fate.begin(), track.fate.end(), Fate::Kept), 200);
+}
+
+// Two of one size that circle; the picture of a refusal numbers them, and each can be asked for.
+std::vector<FrameSummary> pair_of_walkers() {
+  std::vector<FrameSummary> frames;
+  for (int i = 0; i < 100; ++i) {
+    FrameSummary frame{i, {}, 5.0};
+    add(frame, blob_at(200 + 60 * std::cos(0.1 * i), 120 + 40 * std::sin(0.1 * i), 44, 40));
+    add(frame, blob_at(420 + 60 * std::sin(0.1 * i), 340 + 40 * std::cos(0.1 * i)));
+    frames.push_back(frame);
+  }
+  return frames;
+}
+
+TEST(Subject, OneOfSeveralIsFollowedByItsNumber) {
+  const auto frames = pair_of_walkers();
+  const Rivals rivals = find_rivals(frames, 30);
+  ASSERT_EQ(rivals.parts.size(), 2u);
+  EXPECT_EQ(rivals.frames, 100);
+  for (int number : {1, 2}) {
+    const Track track = follow(frames, number);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      ASSERT_TRUE(track.blob[f]);
+      EXPECT_EQ(track.blob[f]->anchor_y < 200, number == 1) << f;
+    }
+  }
+  EXPECT_EQ(follow_subject(frames, 30, kWidth, kHeight, {}).error().code, ErrorCode::BadContent);
+  const auto third = follow_subject(frames, 30, kWidth, kHeight, {3});
+  ASSERT_FALSE(third);
+  EXPECT_NE(third.error().message.find("--subject 3: the film shows 2"), std::string::npos);
+  EXPECT_EQ(find_rivals(walk(40), 30).position, -1);
+}
+
+TEST(Extract, AFrameThatTheCameraDroppedIsTimeNotSpeed) {
+  std::vector<FrameSummary> frames;
+  for (int i = 0; i < 40; ++i) {
+    const double x = 100 + 4 * (i < 20 ? i : i + 1);
+    frames.push_back({i, {blob_at(x, 240)}, 5.0});
+  }
+  const auto result = extract(frames, 30, "a.mp4", {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->missing, 1);
+  EXPECT_EQ(result->rows[19].duration, 2);
+  for (const SampleRow& row : result->rows) EXPECT_NEAR(row.velocity_x, 120, 1e-6) << row.frame;
+}
+
+TEST(Extract, ADraftShowsEverySampleForTwoFrames) {
+  std::vector<FrameSummary> frames;
+  for (int i = 0; i < 40; ++i) frames.push_back({2 * i, {blob_at(100 + 4 * i, 240)}, 5.0});
+  const auto result = extract(frames, 30, "a.mp4", {.stride = 2});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->rows[10].frame, 20);
+  EXPECT_EQ(result->rows[10].duration, 2);
+  EXPECT_NEAR(result->rows[10].velocity_x, 60, 1e-6);
+}
+
+TEST(Extract, MirroredSamplesFollowAndGoTheOtherWay) {
+  const auto result = extract(walk(40), 30, "a.mp4", {.mirror = true});
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_EQ(result->rows.size(), 80u);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const SampleRow &row = result->rows[i], &other = result->rows[40 + i];
+    EXPECT_EQ(other.mirror_of, static_cast<int>(i));
+    EXPECT_EQ(other.clip, row.clip + 1);
+    EXPECT_EQ(other.velocity_x, -row.velocity_x);
+    EXPECT_EQ(other.anchor_x - other.left, row.left + row.width - row.anchor_x);
+  }
+}
+
+TEST(Extract, TheFilmCutsWhereThePictureChangesAtOnce) {
+  auto frames = walk(60);
+  frames[30].difference = 60;
+  const auto result = extract(frames, 30, "a.mp4", {});
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->clips, 2);
+  EXPECT_EQ(result->cuts, 1);
+  EXPECT_EQ(result->rows[30].clip, 1);
+}
+
+TEST(Extract, GroundAnchorLiesBelowTheCentroid) {
+  auto frames = walk(40);
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    frames[f].ground = {f == 20 ? 250.0 : 259.5};  // one frame flickers
+  const auto result = extract(frames, 30, "a.mp4", {.ground = true});
+  ASSERT_TRUE(result) << result.error().message;
+  for (const SampleRow& row : result->rows) {
+    EXPECT_EQ(row.anchor_y, 259.5);
+    EXPECT_EQ(row.anchor_x, 100 + 2 * row.frame);
+  }
+}
+
+TEST(Extract, GroundLineIsWhereTheLowestPartEnds) {
+  KeyedFrame keyed;
+  keyed.crop = {10, 20, 8, 30};
+  keyed.straight.width = 8;
+  keyed.straight.height = 30;
+  keyed.straight.rgba.assign(4 * 8 * 30, 255);
+  keyed.labels.assign(8 * 30, 1);
+  Blob blob;
+  blob.box = keyed.crop;
+  blob.area = 8 * 30;
+  blob.label = 1;
+  keyed.blobs = {blob};
+  EXPECT_NEAR(ground_lines(keyed)[0], 50 - 0.002 * 30, 1e-9);
+}
+
+}  // namespace
+}  // namespace vsprite
