@@ -11,8 +11,8 @@
 // The beam is exact: the survivors are those that sorting all candidates would leave, ties by
 // (parent, sample), where parents keep the order in which they were made. Most candidates are never
 // looked at: what a successor adds depends on the sample and the segment's direction alone, so each
-// sample's successors are sorted once, and a sequence hands them out until one is too dear. (One that is 4,095 thresholds
-// dearer than the cheapest is dropped at any width.)
+// sample's successors are sorted once, and a sequence hands them out until one is too dear. (One
+// that is 4,095 thresholds dearer than the cheapest is dropped at any width.)
 #pragma once
 
 #include <cstdint>
