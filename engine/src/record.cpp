@@ -117,7 +117,7 @@ Error system_error(ErrorCode code, const std::string& path, const char* what) {
 
 struct FilmWriter::Impl {
   std::string path, part, log;
-  int width = 0, height = 0, pipe = -1;
+  int width = 0, height = 0, channels = 3, pipe = -1;
   pid_t child = -1;
   std::vector<std::uint8_t> row_bytes;
 
@@ -140,11 +140,20 @@ Result<void> FilmWriter::Impl::start(double fps) {
   const std::string size = std::to_string(width) + "x" + std::to_string(height);
   char rate[32];
   std::snprintf(rate, sizeof rate, "%.6f", fps);
-  std::vector<std::string> words = {
-      "ffmpeg",    "-nostdin",   "-loglevel", "error",    "-y",   "-f", "rawvideo", "-pix_fmt",
-      "rgb24",     "-s",         size,        "-r",       rate,   "-i", "pipe:0",   "-an",
-      "-c:v",      "libx264",    "-preset",   "veryfast", "-crf", "16", "-pix_fmt", "yuv420p",
-      "-movflags", "+faststart", "-f",        "mp4",      part};
+  std::vector<std::string> words = {"ffmpeg",   "-nostdin", "-loglevel",
+                                    "error",    "-y",       "-f",
+                                    "rawvideo", "-pix_fmt", channels == 4 ? "rgba" : "rgb24",
+                                    "-s",       size,       "-r",
+                                    rate,       "-i",       "pipe:0",
+                                    "-an"};
+  const std::vector<std::string> opaque = {"-c:v",      "libx264",    "-preset",  "veryfast",
+                                           "-crf",      "16",         "-pix_fmt", "yuv420p",
+                                           "-movflags", "+faststart", "-f",       "mp4"};
+  const std::vector<std::string> clear = {"-c:v",     "ffv1", "-level", "3",
+                                          "-pix_fmt", "bgra", "-f",     "matroska"};
+  const auto& kind = channels == 4 ? clear : opaque;
+  words.insert(words.end(), kind.begin(), kind.end());
+  words.push_back(part);
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
@@ -208,8 +217,10 @@ Result<void> FilmWriter::open(const std::string& path, int width, int height, do
   }
   auto impl = std::make_unique<Impl>();
   impl->path = path;
-  impl->width = width & ~1;
-  impl->height = height & ~1;
+  const bool has_alpha = ends_with(path, ".mkv");
+  impl->channels = has_alpha ? 4 : 3;
+  impl->width = has_alpha ? width : width & ~1;
+  impl->height = has_alpha ? height : height & ~1;
   const std::string part = beside(path, ".part");
   const int trial = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (trial < 0) return system_error(ErrorCode::CannotCreate, path, "cannot create the film");
@@ -224,15 +235,12 @@ Result<void> FilmWriter::open(const std::string& path, int width, int height, do
 Result<void> FilmWriter::add(ImageView frame) {
   Impl& m = *impl_;
   if (m.pipe < 0) return m.failed("ffmpeg stopped early");
-  m.row_bytes.resize(std::size_t(m.width) * std::size_t(m.height) * 3);
+  m.row_bytes.resize(std::size_t(m.width) * std::size_t(m.height) * std::size_t(m.channels));
   std::uint8_t* out = m.row_bytes.data();
   for (int y = 0; y < m.height; ++y) {
     const std::uint8_t* in = frame.pixel(0, y);
-    for (int x = 0; x < m.width; ++x, in += 4, out += 3) {
-      out[0] = in[0];
-      out[1] = in[1];
-      out[2] = in[2];
-    }
+    for (int x = 0; x < m.width; ++x, in += 4, out += m.channels)
+      std::memcpy(out, in, static_cast<std::size_t>(m.channels));
   }
   const PipeGuard guard;
   if (write_all(m.pipe, m.row_bytes.data(), m.row_bytes.size())) return {};

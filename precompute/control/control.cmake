@@ -7,4 +7,6 @@ target_sources(vsprite_precompute PRIVATE
   control/solve.cpp
   control/reach.cpp
   control/response.cpp
+  control/path_cost.cpp
+  control/search.cpp
 )

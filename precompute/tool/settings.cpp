@@ -268,7 +268,7 @@ void add_use_options(Row& t) {
   t.text("mode", "MODE", &Settings::mode,
          "which solved tables; default: the pack's own (steer), paper (dump)", " steer dump play ",
          "paper|responsive");
-  t.text("trace", "FILE", &Settings::trace, "one line a tick, as CSV", " steer ");
+  t.text("trace", "FILE", &Settings::trace, "one line a tick, as CSV", " steer path ");
   t.flag("bench", &Settings::bench,
          "all modes over a grid of settings, ten random runs each; -o FILE.svg draws the curves",
          " steer ");
@@ -283,9 +283,33 @@ void add_use_options(Row& t) {
       .in_config = false;
 }
 
+void add_path_options(Row& t) {
+  t.text("script", "FILE", &Settings::script, "the path: one point `x y` a line, output px",
+         " path ");
+  t.text("backdrop", "FILE.png", &Settings::backdrop, "picture behind the sprite", " path ");
+  t.text(
+      "size", "WxH", &Settings::size,
+      "of the film, px; default: the backdrop's, else the path's box and a body length around it",
+      " path ");
+  t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
+    if (!v.empty())
+      if (const auto parsed = parse_size(v); !parsed) return parsed.error();
+    s.size = v;
+    return {};
+  };
+  t.whole("beam", "N", &Settings::beam, 1, 10000000, "sequences kept a tick", " path ");
+  t.real("w1", "W", &Settings::path_w1, 0, 1000, false,
+         "price of a radian off the path's direction, a tick", " path ")
+      .in_config = false;
+  t.real("w2", "W", &Settings::w2, 0, 1000000, false,
+         "price of a body length off the path, squared, a tick", " path ");
+  t.real("tau", "W", &Settings::tau, 0, 1000, false,
+         "price of a tick: looks ahead to the end; 0 = the paper's form", " path ");
+}
+
 void add_common_options(Row& t) {
   t.text("output", "FILE", &Settings::output, "the file to write",
-         " segment build pack dump play steer ")
+         " segment build pack dump play steer path ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",
@@ -317,6 +341,7 @@ Row make_table() {
   add_stage_options(t);
   add_label_options(t);
   add_use_options(t);
+  add_path_options(t);
   add_common_options(t);
   return t;
 }
@@ -355,6 +380,18 @@ const Option* find_option(std::string_view name) {
   for (const Option& option : all_options())
     if (option.name == name) return &option;
   return nullptr;
+}
+
+Result<std::array<int, 2>> parse_size(const std::string& text) {
+  std::array<int, 2> size{};
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, size[0]);
+  const bool has_x = first.ec == std::errc{} && first.ptr != end && *first.ptr == 'x';
+  const auto last = std::from_chars(has_x ? first.ptr + 1 : end, end, size[1]);
+  const auto fits = [](int side) { return side >= 2 && side <= 16384; };
+  if (!has_x || last.ec != std::errc{} || last.ptr != end || !fits(size[0]) || !fits(size[1]))
+    return bad("size", text, "WxH, two whole numbers from 2 to 16384,");
+  return size;
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {

@@ -8,6 +8,7 @@
 // TOML file. The command line wins over --set, --set over the file, the file over the default.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -81,6 +82,15 @@ struct Settings {
   std::string export_file;
   std::string bind;
 
+  // Scripting it.
+  std::string script;
+  std::string backdrop;
+  std::string size;
+  int beam = 50000;
+  double path_w1 = 0.2;
+  double w2 = 8;
+  double tau = 0.1;
+
   // Looking into it.
   std::string what;
   std::string format = "csv";
@@ -116,6 +126,9 @@ struct Option {
 std::span<const Option> all_options();
 bool takes(const Option& option, std::string_view verb);
 const Option* find_option(std::string_view name);
+
+/// "1280x720" as {width, height}, 2..16384 each. Errors: BadSetting.
+Result<std::array<int, 2>> parse_size(const std::string& text);
 
 /// The candidate with the fewest edits, or empty if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);

@@ -14,6 +14,8 @@ target_sources(vsprite_precompute PRIVATE
   tool/label_store.cpp
   tool/label_session.cpp
   tool/labels.cpp
+  tool/path_film.cpp
+  tool/path_script.cpp
   tool/pictures.cpp
   tool/preview.cpp
   tool/project.cpp
@@ -39,6 +41,7 @@ add_executable(vsprite
   tool/commands/label.cpp
   tool/commands/parse.cpp
   tool/commands/train.cpp
+  tool/commands/path.cpp
 )
 target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)
 if(TARGET vsprite_window)

@@ -3,8 +3,9 @@
 //
 // vsprite/record.h - films and screenshots of what was drawn.
 //
-// Frames go through a pipe to the `ffmpeg` program (H.264, yuv420p, mp4). Files are written beside
-// their target and renamed: they appear complete, or not at all.
+// Frames go through a pipe to the `ffmpeg` program: .mp4 is H.264 (yuv420p), .mkv is FFV1,
+// lossless, with alpha. Files are written beside their target and renamed: they appear complete, or
+// not at all.
 #pragma once
 
 #include <memory>
@@ -23,11 +24,12 @@ class FilmWriter {
   FilmWriter& operator=(FilmWriter&&) noexcept;
   ~FilmWriter();
 
-  /// `path` ends in .mp4. Odd sizes lose their last row or column (4:2:0 needs even ones).
+  /// `path` ends in .mp4 (odd sizes lose their last row or column: 4:2:0 needs even ones) or .mkv.
   /// Errors: Unavailable (no `ffmpeg` on the PATH), CannotCreate, BadSetting (size under 2, fps <=
   /// 0).
   Result<void> open(const std::string& path, int width, int height, double fps);
-  /// Alpha is ignored. Pre: open; the picture has the film's size. Errors: CannotWrite.
+  /// Straight alpha, ignored by .mp4. Pre: open; the picture has the film's size. Errors:
+  /// CannotWrite.
   Result<void> add(ImageView frame);
   /// Waits for ffmpeg and renames. Errors: CannotWrite, with ffmpeg's last words.
   Result<void> close();

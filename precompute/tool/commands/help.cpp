@@ -27,6 +27,8 @@ constexpr Verb kVerbs[] = {
 #endif
     {"steer", "PACK", "drive it without a window, and measure how it answers",
      "vsprite steer hamster.vsp --keys \"0 right; 2.5 right+up; 4 none\" --frames 300", run_steer},
+    {"path", "PACK --script FILE", "follow a drawn path, and film it",
+     "vsprite path hamster.vsp --script maze.txt -o maze.mp4", run_path},
     {"info", "PACK", "what a pack contains", "vsprite info hamster.vsp --json", run_info},
     {"validate", "PACK", "check a pack, byte by byte", "vsprite validate hamster.vsp",
      run_validate},
@@ -98,6 +100,7 @@ std::string overview_screen() {
       "steer     drive it without a window\n"
       "  info    what a pack contains    validate  check a pack, byte by byte\n"
       "  dump    the numbers, as npy/csv doctor    what is wrong here\n"
+      "  path    follow a drawn path\n"
       "\n"
       "common:  --jobs N  --seed N  --config FILE.toml  --json  --quiet  --progress MODE  "
       "--version  "
