@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "similarity/random.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {

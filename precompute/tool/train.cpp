@@ -169,7 +169,7 @@ Result<MovePreview> preview_move(const Project& project, const FeatureSet& set,
   TransitionConfig config;
   config.max_per_sample = settings.max_per_sample;
   config.min_back = settings.min_back;
-  config.jobs = settings.jobs;
+  config.minima = settings.minima == "on";
   for (const double move : moves) {
     MoveRow row;
     row.move = move;

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "similarity/distance.h"
-#include "similarity/random.h"
+#include "vsprite/random.h"
 
 namespace vsprite::testing {
 
