@@ -48,13 +48,16 @@ Finding film_verdict(const Patient& p) {
                      fixed_text(p.fps, 2) + " a second, " + seconds_text(p.seconds) + "; " +
                      info.pixel_format;
   if (info.rotation != 0) text += ", turned by " + std::to_string(info.rotation) + " degrees";
-  if (info.transfer != Transfer::Sdr)
-    text += info.transfer == Transfer::Hlg ? ", HLG brought to SDR" : ", PQ brought to SDR";
+  if (info.transfer != Transfer::Sdr) text += info.transfer == Transfer::Hlg ? ", HLG" : ", PQ";
   if (info.counted_frames < 0.98 * info.claimed_frames - 2)
     return {"film", kBroken,
             text + "; it ends early, " + std::to_string(info.claimed_frames) +
                 " frames are due by its header",
             "copy it again from its source"};
+  if (info.transfer != Transfer::Sdr)
+    return {"film", kWarning,
+            text + ": high dynamic range is read as if it were not, so colours are flat",
+            "film with HDR switched off, or convert it to SDR first"};
   if (info.interlaced)
     return {"film", kWarning, text + "; interlaced: moving edges are combs",
             "ffmpeg -i " + p.path + " -vf bwdif -c:v libx264 -crf 16 whole-frames.mp4"};
@@ -97,7 +100,8 @@ Finding rate_verdict(const Patient& p) {
   const Checkup& c = p.c;
   std::string text = "frame rate: " + fixed_text(p.fps, 2) + " a second";
   if (c.irregular > 0.02)
-    text += ", at irregular times (" + percent(c.irregular) + " of them): time stamps are followed";
+    text +=
+        ", at irregular times (" + percent(c.irregular) + " of them), played as if at even ones";
   if (c.repeated < 0.03) return {"rate", kOk, text + ", no repeated frames"};
   return {"rate", kWarning,
           text + ", of these " + fixed_text(p.fps * (1 - c.repeated), 1) +
