@@ -18,8 +18,8 @@
 
 #include "control/joint.h"
 #include "control/lanes.h"
-#include "vsprite/random.h"
 #include "support/dense_control.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <deque>
 
-#include "vsprite/random.h"
 #include "vsprite/actor.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {

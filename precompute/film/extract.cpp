@@ -25,18 +25,8 @@ constexpr double kCutFloor = 20;  // code values
 constexpr double kGroundShare = 0.002;
 constexpr int kGroundReach = 2;  // frames either side of the ground line's median
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double distance(const Blob& a, const Blob& b) {
-  const double x = a.anchor_x - b.anchor_x;
-  const double y = a.anchor_y - b.anchor_y;
-  return std::sqrt(x * x + y * y);
-}
+using detail::distance;
+using detail::median;
 
 // 1 where a frame repeats the one before.
 std::vector<std::uint8_t> find_duplicates(std::span<const FrameSummary> frames,

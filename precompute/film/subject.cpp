@@ -23,18 +23,8 @@ constexpr double kStillArea = 1.15;    // and its area
 constexpr double kBody = 0.3;          // of the usual area: a part that can hide the subject
 constexpr double kHiddenSeconds = 10;  // longer than this no part covers the subject
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double distance(const Blob& a, const Blob& b) {
-  const double x = a.anchor_x - b.anchor_x;
-  const double y = a.anchor_y - b.anchor_y;
-  return std::sqrt(x * x + y * y);
-}
+using detail::distance;
+using detail::median;
 
 double longer_side(const Blob& blob) { return std::max(blob.box.width, blob.box.height); }
 
@@ -311,6 +301,19 @@ Track largest_track(std::span<const FrameSummary> frames, double fps) {
 }
 
 }  // namespace
+
+double detail::median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double detail::distance(const Blob& a, const Blob& b) {
+  const double x = a.anchor_x - b.anchor_x;
+  const double y = a.anchor_y - b.anchor_y;
+  return std::sqrt(x * x + y * y);
+}
 
 const char* fate_name(Fate fate) noexcept {
   constexpr const char* kNames[kFateCount] = {"kept",    "duplicate", "empty", "border",

@@ -71,4 +71,12 @@ Rivals find_rivals(std::span<const FrameSummary> frames, double fps);
 Result<Track> follow_subject(std::span<const FrameSummary> frames, double fps, int width,
                              int height, SubjectChoice choice);
 
+namespace detail {
+
+/// The middle value, the upper one of an even count; 0 of none.
+double median(std::vector<double> values);
+/// Between the anchors, px.
+double distance(const Blob& a, const Blob& b);
+
+}  // namespace detail
 }  // namespace vsprite

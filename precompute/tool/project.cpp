@@ -72,7 +72,8 @@ Result<Project> Project::open(const std::string& folder, bool create) {
   auto lock = FolderLock::take(folder);
   if (!lock) return lock.error();
   project.lock_ = std::move(*lock);
-  for (const char* sub : {"", "/sprites", "/keyed", "/pairs"}) remove_stale_temporaries(folder + sub);
+  for (const char* sub : {"", "/sprites", "/keyed", "/pairs"})
+    remove_stale_temporaries(folder + sub);
   if (auto read = project.read_manifest(); !read) return read.error();
   return project;
 }

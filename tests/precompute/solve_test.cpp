@@ -8,29 +8,13 @@
 #include <limits>
 
 #include "support/dense_control.h"
+#include "support/random_film.h"
 #include "vsprite/random.h"
 
 namespace vsprite {
 namespace {
 
-// A ring of n samples with random jumps; the last sample was not kept.
-CostTable random_costs(std::uint32_t n, Random& random) {
-  CostTable costs;
-  costs.row_start.assign(1, 0);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    for (std::uint32_t j = 0; j < n; ++j) {
-      if (j == (i + 1) % n)
-        costs.transitions.push_back({j, 0});
-      else if (random.below(5) == 0)
-        costs.transitions.push_back({j, static_cast<float>(0.2 + random.unit())});
-    }
-    costs.row_start.push_back(static_cast<std::uint32_t>(costs.transitions.size()));
-  }
-  costs.row_start.push_back(costs.row_start.back());
-  costs.kept.assign(n, 1);
-  costs.kept.push_back(0);
-  return costs;
-}
+using vsprite::testing::random_costs;
 
 std::vector<Vec2> random_velocities(std::size_t n, Random& random) {
   std::vector<Vec2> v;

@@ -17,9 +17,9 @@
 #include <string>
 
 #include "similarity/ask.h"
-#include "vsprite/random.h"
 #include "support/pose_truth.h"
 #include "tool/pictures.h"
+#include "vsprite/random.h"
 
 using namespace vsprite;
 

@@ -15,11 +15,11 @@
 #include "control/solve.h"
 #include "similarity/features.h"
 #include "similarity/label.h"
-#include "vsprite/random.h"
 #include "similarity/transitions.h"
 #include "tool/pictures.h"
 #include "tool/project.h"
 #include "vsprite/actor.h"
+#include "vsprite/random.h"
 
 using namespace vsprite;
 
