@@ -166,14 +166,10 @@ Result<Json> find_transitions(StageRun& run) {
   TransitionFile file;
   TransitionStats stats;
   file.v0 = set.v0;
-  TransitionConfig config;
-  config.minima = run.settings.minima == "on";
-  config.near_miss = static_cast<float>(run.settings.near_miss);
+  const TransitionConfig config = transition_config(run.settings);
   auto pairs = find_pairs(run, set, *classifier, 1 + config.near_miss, stats.compared);
   if (!pairs) return pairs.error();
   file.pairs = std::move(*pairs);
-  config.max_per_sample = run.settings.max_per_sample;
-  config.min_back = run.settings.min_back;
   auto costs = make_cost_table(set, file.pairs, config, stats, &*classifier);
   if (!costs) return Error{costs.error().code, run.project.folder() + ": " + costs.error().message};
   file.costs = std::move(*costs);
@@ -337,6 +333,15 @@ Result<StageOutcome> run_stage(StageRun& run, int index) {
 }
 
 }  // namespace
+
+TransitionConfig transition_config(const Settings& settings) {
+  TransitionConfig config;
+  config.max_per_sample = settings.max_per_sample;
+  config.min_back = settings.min_back;
+  config.minima = settings.minima == "on";
+  config.near_miss = static_cast<float>(settings.near_miss);
+  return config;
+}
 
 int stage_index(std::string_view name) {
   int index = 0;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "similarity/transitions.h"
 #include "tool/pictures.h"
 #include "tool/project.h"
 #include "tool/settings.h"
@@ -65,5 +66,8 @@ Result<Json> solve_tables(StageRun& run);
 
 /// T, V and pictures -> the pack (build_pack.h), measured on the way.
 Result<Json> write_pack(StageRun& run);
+
+/// The settings that `transitions` goes by.
+TransitionConfig transition_config(const Settings& settings);
 
 }  // namespace vsprite

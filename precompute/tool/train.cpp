@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "similarity/transitions.h"
 #include "tool/report.h"
+#include "tool/stages.h"
 
 namespace vsprite {
 namespace {
@@ -166,10 +166,7 @@ Result<MovePreview> preview_move(const Project& project, const FeatureSet& set,
   Classifier widest = learned->training.classifier;
   widest.threshold *= moves.back();
   const auto all = accepted_pairs(set, widest, settings.jobs);
-  TransitionConfig config;
-  config.max_per_sample = settings.max_per_sample;
-  config.min_back = settings.min_back;
-  config.minima = settings.minima == "on";
+  const TransitionConfig config = transition_config(settings);
   for (const double move : moves) {
     MoveRow row;
     row.move = move;
