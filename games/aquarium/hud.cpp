@@ -219,7 +219,7 @@ void draw_pause(Renderer& renderer, const Page& page) {
   for (const float side : {-1.0f, 1.0f})
     renderer.draw_shape(
         vsprite::box({c.x + side * 18 - 9, c.y - 30}, {c.x + side * 18 + 9, c.y + 30}, kInk, 5));
-  text(renderer, "P  go on      Esc  quit      M  sound      F11  full screen", {c.x, c.y + 88}, 22,
+  text(renderer, "P  go on      Esc  quit      M  sound      F11  full screen", {c.x, c.y + 122}, 24,
        faded(kInk, 0.9f), Align::Center);
 }
 
