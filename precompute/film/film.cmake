@@ -13,6 +13,7 @@ target_sources(vsprite_precompute PRIVATE
   film/matte.cpp
   film/subject.cpp
   film/extract.cpp
+  film/match.cpp
   film/contact.cpp
   film/checkup.cpp
 )

@@ -4,6 +4,7 @@
 // tool/stages.h - the five stages over a work folder: run, or skipped because nothing has changed.
 #pragma once
 
+#include <climits>
 #include <functional>
 #include <optional>
 #include <string>
@@ -42,6 +43,7 @@ struct StageRun {
   std::string film;
   std::string pack;
   StageListener listener;
+  int first_frame = 0, last_frame = INT_MAX;    ///< of the film, where a cast names some of it
   std::optional<LoadedSprites> sprites = {};    ///< read once, used by several stages
   std::optional<std::string> sprites_sum = {};  ///< likewise
 };
