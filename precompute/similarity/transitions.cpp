@@ -444,7 +444,7 @@ std::vector<std::uint8_t> needed_transitions(const CostTable& costs,
   std::vector<std::uint8_t> needed(costs.transitions.size(), 0);
   const auto need = [&](std::uint32_t from, std::uint32_t to) {
     for (std::uint32_t e = costs.row_start[from]; e < costs.row_start[from + 1]; ++e)
-      needed[e] |= costs.transitions[e].to == to ? 1 : 0;
+      if (costs.transitions[e].to == to) needed[e] = 1;
   };
   std::map<std::pair<std::string, std::string>, std::tuple<float, std::uint32_t, std::uint32_t>>
       ways;

@@ -99,7 +99,8 @@ Result<Member> segment_member(StageRun& run, const CastClip& clip, std::size_t i
                             static_cast<double>(count));
     };
   StageRun part{member.project, own, clip.path, {}, listener};
-  part.first_frame = clip.first, part.last_frame = clip.last;
+  part.first_frame = clip.first;
+  part.end_frame = clip.last == INT_MAX ? INT_MAX : clip.last + 1;
   const auto outcomes = run_stages(part, 0, 0);
   if (!outcomes) return outcomes.error();
   member.result = outcomes->front().result;

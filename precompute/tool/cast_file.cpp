@@ -126,6 +126,8 @@ CastClip read_clip(Table& table, const fs::path& folder, bool match) {
                                ", comes before the first, " + std::to_string(clip.first));
   }
   if (clip.file.empty()) table.fail("file", "a clip without a file: `file = \"walk.mp4\"` is due");
+  if (is_cast_file(clip.file))
+    table.fail("file", "file: a film is due, " + clip.file + " is a cast");
   if (!fits_tag(clip.tag))
     table.fail("tag",
                "tag: up to 64 letters, digits and signs without spaces are due, such as "

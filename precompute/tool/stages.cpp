@@ -80,7 +80,8 @@ Result<StageKey> segment_key(StageRun& run) {
                    {"anchor", s.anchor},
                    {"mirror", s.mirror},
                    {"smooth", s.smooth},
-                   {"min-clip", s.min_clip}},
+                   {"min-clip", s.min_clip},
+                   {"range", {run.first_frame, run.end_frame}}},
                   {{"film", hex64(*sum)}}};
 }
 
@@ -158,6 +159,7 @@ Result<std::vector<PairDistance>> find_pairs(StageRun& run, const FeatureSet& se
                       {"limit", limit}};
     store = keep_tiles(run.project.path("pairs"), hash_bytes(key.dump()));
   }
+  if (run.search) return run.search(finder, store, &compared, run.listener.progress);
   return accepted_pairs(finder, run.settings.jobs, store, &compared, run.listener.progress);
 }
 

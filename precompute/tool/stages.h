@@ -35,6 +35,11 @@ struct StageOutcome {
   Json result = Json::object();  ///< its figures, also where it was skipped
 };
 
+/// Finds all pairs within a finder's limit, ascending; accepted_pairs() where it is empty.
+using PairSearch = std::function<Result<std::vector<PairDistance>>(
+    const PairFinder& finder, const TileStore& store, std::uint64_t* compared,
+    const std::function<void(double)>& progress)>;
+
 /// What a run works on. `film` is empty where the film is not at hand: segment must then be
 /// current.
 struct StageRun {
@@ -43,7 +48,8 @@ struct StageRun {
   std::string film;
   std::string pack;
   StageListener listener;
-  int first_frame = 0, last_frame = INT_MAX;    ///< of the film, where a cast names some of it
+  int first_frame = 0, end_frame = INT_MAX;  ///< of the film, where a cast names some of it
+  PairSearch search = {};
   std::optional<LoadedSprites> sprites = {};    ///< read once, used by several stages
   std::optional<std::string> sprites_sum = {};  ///< likewise
 };
