@@ -168,8 +168,9 @@ BENCHMARK(blas_unweighted)->Unit(benchmark::kMillisecond);
 // `pairs` unordered pairs of pictures of `p` values in one colour plane.
 void python(benchmark::State& state, const char* code, std::size_t pairs) {
   const int plane = subject->set.grid * subject->set.grid;
-  const std::string command = "OPENBLAS_NUM_THREADS=1 python3 -c 'p=" + std::to_string(plane) +
-                              "\n" + code + "' 2>/dev/null";
+  const std::string command =
+      "PATH=/usr/bin:$PATH OPENBLAS_NUM_THREADS=1 python3 -c 'p=" + std::to_string(plane) + "\n" +
+      code + "' 2>/dev/null";
   for (auto _ : state) {
     double seconds = 0;
     std::FILE* pipe = ::popen(command.c_str(), "r");
