@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// distance_bench [--work=DIR] [--large=N] - all pairs: plain loop, strong loop, BLAS, and ours, in
-// one run on one thread where not said otherwise.
+// distance_bench [--work=DIR] [--large=N] - all pairs: plain loop, strong loop, BLAS, numpy, scipy
+// and ours, in one run on one thread where not said otherwise.
 //
 // DIR: a work folder whose stages `segment` and `train` have run; without one, a drawn creature.
 // Pairs of the rivals are drawn from all pairs, the same for all. The growth from 5,000 samples to
@@ -163,6 +163,51 @@ void blas_unweighted(benchmark::State& state) {
 #endif
 }
 BENCHMARK(blas_unweighted)->Unit(benchmark::kMillisecond);
+
+// What scripts do: python3 with numpy or scipy, where they are there. `code` prints seconds for
+// `pairs` unordered pairs of pictures of `p` values in one colour plane.
+void python(benchmark::State& state, const char* code, std::size_t pairs) {
+  const int plane = subject->set.grid * subject->set.grid;
+  const std::string command =
+      "PATH=/usr/bin:$PATH OPENBLAS_NUM_THREADS=1 python3 -c 'p=" + std::to_string(plane) + "\n" +
+      code + "' 2>/dev/null";
+  for (auto _ : state) {
+    double seconds = 0;
+    std::FILE* pipe = ::popen(command.c_str(), "r");
+    const bool read = pipe && std::fscanf(pipe, "%lf", &seconds) == 1;
+    if (pipe) ::pclose(pipe);
+    if (!read) {
+      state.SkipWithError("no python3 with numpy and scipy here");
+      return;
+    }
+    state.SetIterationTime(seconds);
+  }
+  report(state, pairs);
+}
+
+// |c_i - c_j|^2 unweighted, float64, as scipy does it; another feature, both triangles.
+void scipy_cdist(benchmark::State& state) {
+  python(state,
+         "import numpy as n, time\nfrom scipy.spatial.distance import cdist\n"
+         "x=n.random.RandomState(1).rand(400,3*p)\nt=time.perf_counter()\n"
+         "cdist(x,x,\"sqeuclidean\")\nprint(time.perf_counter()-t)",
+         400 * 399 / 2);
+}
+BENCHMARK(scipy_cdist)->UseManualTime()->Unit(benchmark::kMillisecond);
+
+// The real feature, by broadcasting, one triangle.
+void numpy_broadcast(benchmark::State& state) {
+  python(state,
+         "import numpy as n, time\nr=n.random.RandomState(1)\n"
+         "a=r.rand(200,p).astype(n.float32)\nc=r.rand(200,3,p).astype(n.float32)\n"
+         "t=time.perf_counter()\n"
+         "for i in range(199):\n"
+         "  w=n.minimum(a[i],a[i+1:]); d=c[i]-c[i+1:]\n"
+         "  (w*(d*d).sum(1)).sum(1); n.abs(a[i]-a[i+1:]).sum(1)\n"
+         "print(time.perf_counter()-t)",
+         200 * 199 / 2);
+}
+BENCHMARK(numpy_broadcast)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 // Ours without bounds: both pixel features of every pair, exact, by each instruction set.
 void kernel(benchmark::State& state) {

@@ -225,10 +225,12 @@ Edges make_edges(const CostTable& costs, std::span<const float> skip_costs,
     bool open = skips;
     const auto next_but_one = static_cast<std::uint32_t>(i + 2);
     const float skip = skips ? price_of(config.skip_price * static_cast<double>(skip_costs[i])) : 0;
-    for (const Transition& t : row) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const Transition& t = row[k];
       if (open && t.to >= next_but_one) add(next_but_one, skip), open = false;
       if (skips && t.to == next_but_one) continue;
-      if (static_cast<double>(t.cost) <= limit) add(t.to, price_of(static_cast<double>(t.cost)));
+      const bool needed = !costs.needed.empty() && costs.needed[costs.row_start[i] + k] != 0;
+      if (needed || static_cast<double>(t.cost) <= limit) add(t.to, price_of(static_cast<double>(t.cost)));
     }
     if (open) add(next_but_one, skip);
     edges.row_start.push_back(static_cast<std::uint32_t>(edges.to.size()));

@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
   film/video.cpp
+  film/source.cpp
+  film/container.cpp
+  film/hdr.cpp
+  film/sender.cpp
   film/decoder.cpp
   film/color.cpp
   film/light.cpp
@@ -13,6 +17,7 @@ target_sources(vsprite_precompute PRIVATE
   film/matte.cpp
   film/subject.cpp
   film/extract.cpp
+  film/match.cpp
   film/contact.cpp
   film/checkup.cpp
 )

@@ -17,7 +17,9 @@
 #include <cstring>
 #include <new>
 
+#include "film/color.h"
 #include "film/decoder.h"
+#include "film/pacer.h"
 
 namespace vsprite {
 
@@ -80,14 +82,24 @@ struct FilmReader::Impl {
   FilmInfo info;
   int fd = -1;
   pid_t child = -1;
-  int next = 0;        // index of the frame to come
-  bool ended = false;  // all frames were handed out
-  bool whole = true;   // every frame is due, not a selection
+  int next = 0;              // index of the frame to come
+  bool ended = false;        // all frames were handed out
+  bool whole = true;         // every frame of the file is due
+  bool consecutive = true;   // no frame is left out, from the first that is due
+  bool claims_time = false;  // the container claims seconds: lost frames count
+  int lost = 0, surplus = 0;
+  Pacer pacer{};
+  std::unique_ptr<Impl> matte;
+  Frame coverage;  // the matte's frame
 
   ~Impl() { stop(); }
 
-  Result<void> start(const std::string& film, const Selection& selection);
+  Result<void> start(const FilmSource& source, const Selection& selection);
+  Result<void> start_matte(const FilmSource& source, const Selection& selection);
+  /// The next frame that the child sends; false at the end.
+  Result<bool> next_frame(Frame& frame);
   Result<bool> pull_frame(const FrameHead& head, Frame& frame);
+  Result<bool> pull_coverage(bool more, Frame& frame);
 
   // Ends and reaps the child; returns its wait status, or 0 if there was none.
   int stop() {
@@ -156,7 +168,7 @@ struct FilmReader::Impl {
   Result<bool> finish() {
     ended = true;
     reap();
-    if (whole && next < 0.98 * info.claimed_frames - 2)
+    if (whole && next + (claims_time ? lost - surplus : 0) < 0.98 * info.claimed_frames - 2)
       return Error{ErrorCode::CorruptData, path + ": film ends early: " + std::to_string(next) +
                                                " frames decoded, " +
                                                std::to_string(info.claimed_frames) +
@@ -170,12 +182,17 @@ namespace {
 Result<void> check_file(const std::string& path) {
   struct stat file {};
   if (path.empty() || stat(path.c_str(), &file) != 0) {
+    if (!path.empty() && is_picture_source(path) && (errno == ENOENT || errno == ENOTDIR)) {
+      if (const auto found = find_pictures(path); !found) return found.error();
+      if (path.find_first_of("*?%") != std::string::npos) return {};
+    }
     if (path.empty() || errno == ENOENT || errno == ENOTDIR)
       return Error{ErrorCode::NotFound, path + ": no such file; give the path of a film"};
     return Error{ErrorCode::CannotRead, path + ": cannot be read: " + std::strerror(errno)};
   }
-  if (S_ISDIR(file.st_mode))
-    return Error{ErrorCode::CannotRead, path + ": is a folder; give the path of a film"};
+  if (S_ISDIR(file.st_mode)) {
+    if (const auto found = find_pictures(path); !found) return found.error();
+  }
   if (access(path.c_str(), R_OK) != 0)
     return Error{ErrorCode::CannotRead, path + ": cannot be read: " + std::strerror(errno)};
   return {};
@@ -184,17 +201,18 @@ Result<void> check_file(const std::string& path) {
 }  // namespace
 
 // Forks the decoder and hears its Hello.
-Result<void> FilmReader::Impl::start(const std::string& film, const Selection& selection) {
-  if (auto checked = check_file(film); !checked) return checked.error();
-  path = film;
-  whole = selection.mode == Selection::Every;
+Result<void> FilmReader::Impl::start(const FilmSource& source, const Selection& selection) {
+  if (auto checked = check_file(source.path); !checked) return checked.error();
+  path = source.path;
+  consecutive = selection.mode == Selection::Every;
+  whole = consecutive && source.first == 0 && source.end == INT_MAX;
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0)
     return Error{ErrorCode::CannotRead, path + ": no pipe to a decoder: " + std::strerror(errno)};
   fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);  // a refusal costs speed only
   const pid_t parent = getpid();
   child = fork();
-  if (child == 0) detail::decode_in_child(ends[1], parent, path, selection);
+  if (child == 0) detail::decode_in_child(ends[1], parent, source, selection);
   close(ends[1]);
   fd = ends[0];
   if (child < 0)
@@ -203,8 +221,13 @@ Result<void> FilmReader::Impl::start(const std::string& film, const Selection& s
   Hello hello{};
   if (const Pulled how = pull(&hello, sizeof hello); how != Pulled::All) return failure(how);
   if (hello.kind != Kind::Film)
-    return Error{ErrorCode::BadFormat,
-                 path + ": no film: not one frame can be decoded; due: a video file such as MP4"};
+    return Error{
+        ErrorCode::BadFormat,
+        hello.fault[0] != 0
+            ? std::string(hello.fault)
+            : path + ": no film: not one frame" +
+                  (source.first > 0 ? " from " + std::to_string(source.first) + " on" : "") +
+                  " can be decoded; due: a video file such as MP4"};
   if (hello.width < 1 || hello.height < 1 || hello.width > kMaxSide || hello.height > kMaxSide)
     return Error{ErrorCode::LimitExceeded, path + ": frames of " + std::to_string(hello.width) +
                                                " x " + std::to_string(hello.height) +
@@ -223,7 +246,30 @@ Result<void> FilmReader::Impl::start(const std::string& film, const Selection& s
   info.bits = hello.bits;
   info.interlaced = hello.interlaced != 0;
   info.has_alpha = hello.has_alpha != 0;
+  info.pictures = hello.pictures != 0;
+  claims_time = hello.claims_time != 0;
   set_rate(hello.fps, info);
+  if (info.pictures) {
+    info.time_numerator = info.fps_denominator;
+    info.time_denominator = info.fps_numerator;
+  }
+  pacer = Pacer(info);
+  return source.matte.empty() ? Result<void>{} : start_matte(source, selection);
+}
+
+Result<void> FilmReader::Impl::start_matte(const FilmSource& source, const Selection& selection) {
+  FilmSource other = source;
+  other.path = source.matte;
+  other.matte.clear();
+  matte = std::make_unique<Impl>();
+  if (auto started = matte->start(other, selection); !started) return started;
+  if (matte->info.width != info.width || matte->info.height != info.height)
+    return Error{ErrorCode::BadContent, matte->path + ": the matte is " +
+                                            std::to_string(matte->info.width) + " x " +
+                                            std::to_string(matte->info.height) + " px, the film " +
+                                            std::to_string(info.width) + " x " +
+                                            std::to_string(info.height) + "; due: one size"};
+  info.has_alpha = true;
   return {};
 }
 
@@ -245,7 +291,8 @@ Result<bool> FilmReader::Impl::pull_frame(const FrameHead& head, Frame& frame) {
                                              " x " + std::to_string(head.height) +
                                              " px does not fit in memory"};
   }
-  for (auto* plane : {&frame.y, &frame.cb, &frame.cr})
+  frame.rgba.resize(head.has_rgba != 0 ? 4 * frame.y.size() : 0);
+  for (auto* plane : {&frame.y, &frame.cb, &frame.cr, &frame.rgba})
     if (const Pulled how = pull(plane->data(), plane->size()); how != Pulled::All)
       return failure(how);
   frame.index = head.index;
@@ -256,47 +303,87 @@ Result<bool> FilmReader::Impl::pull_frame(const FrameHead& head, Frame& frame) {
   return true;
 }
 
-Result<FilmReader> FilmReader::open(const std::string& path) {
+Result<bool> FilmReader::Impl::next_frame(Frame& frame) {
+  if (ended || fd < 0) return false;
+  FrameHead head{};
+  if (const Pulled how = pull(&head, sizeof head); how != Pulled::All) return failure(how);
+  if (head.kind == Kind::Damaged) {
+    Hello hello{};
+    pull(hello.fault, sizeof hello.fault);
+    stop();
+    return Error{ErrorCode::CorruptData, hello.fault};
+  }
+  const auto more = head.kind == Kind::End ? finish() : pull_frame(head, frame);
+  return more && matte ? pull_coverage(*more, frame) : more;
+}
+
+// The matte's brightness becomes the coverage of the frame.
+Result<bool> FilmReader::Impl::pull_coverage(bool more, Frame& frame) {
+  const auto covered = matte->next_frame(coverage);
+  if (!covered) return covered;
+  if (*covered != more || (more && coverage.index != frame.index)) {
+    stop();
+    return Error{ErrorCode::CorruptData,
+                 matte->path + ": the matte has " + (*covered ? "more" : "fewer") +
+                     " frames than the film: " + std::to_string(more ? matte->next : next) +
+                     " are in both; due: a frame for each"};
+  }
+  if (!more) return false;
+  if (frame.rgba.empty()) frame.rgba = to_image(frame).rgba;
+  const int black = coverage.coding.full_range ? 0 : 16,
+            range = coverage.coding.full_range ? 255 : 219;
+  for (std::size_t i = 0; i < coverage.y.size(); ++i)
+    frame.rgba[4 * i + 3] = static_cast<std::uint8_t>(
+        std::clamp(((coverage.y[i] - black) * 510 + range) / (2 * range), 0, 255));
+  return true;
+}
+
+Result<FilmReader> FilmReader::open(const FilmSource& source) {
   auto impl = std::make_unique<Impl>();
-  if (auto started = impl->start(path, {}); !started) return started.error();
+  if (auto started = impl->start(source, {}); !started) return started.error();
   return FilmReader(std::move(impl));
 }
 
-Result<FilmReader> FilmReader::open_bursts(const std::string& path, int count, int length) {
+Result<FilmReader> FilmReader::open_bursts(const FilmSource& source, int count, int length) {
   auto impl = std::make_unique<Impl>();
-  const Selection selection{Selection::Bursts, count, length};
-  if (auto started = impl->start(path, selection); !started) return started.error();
+  const Selection selection{Selection::Bursts, count, length, !source.matte.empty()};
+  if (auto started = impl->start(source, selection); !started) return started.error();
   return FilmReader(std::move(impl));
 }
 
 Result<bool> FilmReader::read(Frame& frame) {
   Impl& film = *impl_;
-  if (film.ended || film.fd < 0) return false;
-  FrameHead head{};
-  if (const Pulled how = film.pull(&head, sizeof head); how != Pulled::All)
-    return film.failure(how);
-  if (head.kind == Kind::End) return film.finish();
-  return film.pull_frame(head, frame);
+  for (;;) {
+    const auto more = film.next_frame(frame);
+    if (!more || !*more) return more;
+    const int lost = film.consecutive ? film.pacer.lost_before(frame.time) : 0;
+    frame.lost_before = std::max(lost, 0);
+    film.lost += frame.lost_before;
+    if (lost >= 0) return true;
+    ++film.surplus;
+  }
 }
 
-Result<std::vector<Frame>> sample_frames(const std::string& path, int wanted) {
+int FilmReader::surplus() const noexcept { return impl_->surplus; }
+
+Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted) {
   constexpr std::int64_t kRoom = std::int64_t{400} << 20;
   constexpr std::size_t kLeast = 16;
   std::vector<Frame> frames;
   for (const auto mode : {Selection::KeyFrames, Selection::Spread}) {
     FilmReader::Impl film;
-    if (auto started = film.start(path, {mode, wanted, 1}); !started) return started.error();
-    const std::int64_t bytes = std::int64_t{3} * film.info.width * film.info.height / 2;
+    if (auto started = film.start(source, {mode, wanted, 1, !source.matte.empty()}); !started)
+      return started.error();
+    const std::int64_t bytes =
+        (film.info.has_alpha ? 11 : 3) * std::int64_t{film.info.width} * film.info.height / 2;
     const auto room = std::max<std::int64_t>(kRoom / std::max<std::int64_t>(bytes, 1), 16);
     int stride = 1;
     if (room < wanted) stride = static_cast<int>((wanted + room - 1) / room);
     frames.clear();
     for (Frame frame;;) {
-      FrameHead head{};
-      if (const Pulled how = film.pull(&head, sizeof head); how != Pulled::All)
-        return film.failure(how);
-      if (head.kind == Kind::End) break;
-      if (auto pulled = film.pull_frame(head, frame); !pulled) return pulled.error();
+      const auto more = film.next_frame(frame);
+      if (!more) return more.error();
+      if (!*more) break;
       if ((film.next - 1) % stride == 0) frames.push_back(frame);
     }
     if (frames.size() >= std::min(kLeast, static_cast<std::size_t>(wanted) / 2)) break;

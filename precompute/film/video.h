@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "film/source.h"
 #include "vsprite/result.h"
 
 namespace vsprite {
@@ -44,9 +45,13 @@ struct Frame {
   Coding coding;
   std::int64_t time = kNoTime;  ///< when it is shown, in FilmInfo's time base
   bool damaged = false;         ///< the decoder patched holes in it
+  int lost_before = 0;          ///< frames missing before it, by the time stamps
 
   std::vector<std::uint8_t> y;       ///< (height, width)
   std::vector<std::uint8_t> cb, cr;  ///< (cell_height(), cell_width())
+  /// (height, width, 4) straight alpha, as it was stored: of pictures, of films that carry coverage
+  /// and where a matte lies beside the film; else empty. The planes hold it over black.
+  std::vector<std::uint8_t> rgba;
 
   static constexpr std::int64_t kNoTime = INT64_MIN;
   int cell_width() const noexcept { return (width + 1) / 2; }
@@ -61,7 +66,7 @@ struct FilmInfo {
   std::uint32_t fps_numerator = 30;
   std::uint32_t fps_denominator = 1;
   int claimed_frames = 0;  ///< what the container says; 0 if it says nothing
-  int counted_frames = 0;  ///< packets of the film, where open_bursts() looked; else 0
+  int counted_frames = 0;  ///< packets of the film
 
   std::uint32_t time_numerator = 1, time_denominator = 1;  ///< seconds a tick of Frame::time
   int rotation =
@@ -71,29 +76,34 @@ struct FilmInfo {
   std::string pixel_format;  ///< as libavutil names it: "yuv420p", "yuv420p10le", ...
   int bits = 8;              ///< of a sample as coded
   bool interlaced = false;
-  bool has_alpha = false;
+  bool has_alpha = false;  ///< the format has room for coverage; whether it is used, frames tell
+  bool pictures = false;   ///< not a film but pictures in a row
 };
 
 class FilmReader {
  public:
-  /// Errors: NotFound, CannotRead, BadFormat (no film), LimitExceeded (over 16,384 px a side).
-  static Result<FilmReader> open(const std::string& path);
+  /// Errors: NotFound, CannotRead, BadFormat (no film), LimitExceeded (over 16,384 px a side),
+  /// BadContent (the matte's size differs).
+  static Result<FilmReader> open(const FilmSource& source);
   /// Reads about `count` runs of `length` consecutive frames, spread over the film, in order; told
   /// apart by Frame::index. Runs begin at key frames where there are enough of them. A film that
   /// ends early is no error. Errors: those of open().
-  static Result<FilmReader> open_bursts(const std::string& path, int count, int length);
+  static Result<FilmReader> open_bursts(const FilmSource& source, int count, int length);
   FilmReader(FilmReader&&) noexcept;
   FilmReader& operator=(FilmReader&&) noexcept;
   ~FilmReader();
 
   const FilmInfo& info() const noexcept;
-  /// The next frame into `frame`; false at the end. Errors: DecoderFailed (died, hung for 30 s),
-  /// CorruptData (the frame size changes; fewer frames than 0.98 x claimed - 2 arrived),
-  /// OutOfMemory.
+  /// The next frame into `frame`; false at the end. Frames come at the film's rate, by their time
+  /// stamps: what is missing is counted in Frame::lost_before, what is too much is passed over.
+  /// Errors: DecoderFailed (died, hung for 30 s), CorruptData (the frame size changes; fewer frames
+  /// than 0.98 x claimed - 2 arrived; the matte has fewer or more frames), OutOfMemory.
   Result<bool> read(Frame& frame);
+  /// Frames that read() passed over because others stand for their time.
+  int surplus() const noexcept;
 
  private:
-  friend Result<std::vector<Frame>> sample_frames(const std::string& path, int wanted);
+  friend Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted);
   struct Impl;
   explicit FilmReader(std::unique_ptr<Impl> impl) noexcept;
   std::unique_ptr<Impl> impl_;
@@ -103,6 +113,6 @@ class FilmReader {
 /// alone where there are enough of them (that costs next to nothing); otherwise the whole film is
 /// decoded and nearly all of it dropped. Takes at most 400 MB: fewer frames of large pictures.
 /// Errors: those of open() and read(), but a film that ends early is none.
-Result<std::vector<Frame>> sample_frames(const std::string& path, int wanted);
+Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted);
 
 }  // namespace vsprite

@@ -176,4 +176,19 @@ std::vector<std::int16_t> coarse_coverage(const CellImage& image, const BlockOrd
   return sums;
 }
 
+std::vector<std::uint8_t> block_means(const CellImage& image, std::size_t count) {
+  std::vector<std::uint8_t> means((count + kBlockCells - 1) / kBlockCells * kBlockBytes, 0);
+  for_each_block(image, [&](std::size_t k, const std::uint8_t* cells) {
+    if (k >= count) return;
+    const std::uint8_t least = *std::min_element(cells, cells + kBlockCells);
+    if (least == 0) return;
+    std::uint8_t* mean = means.data() + k / kBlockCells * kBlockBytes + k % kBlockCells;
+    *mean = least;
+    for (std::size_t c = kBlockCells; c < kBlockBytes; c += kBlockCells)
+      mean[c] = static_cast<std::uint8_t>(
+          (std::accumulate(cells + c, cells + c + kBlockCells, 0) + kBlockCells / 2) / kBlockCells);
+  });
+  return means;
+}
+
 }  // namespace vsprite

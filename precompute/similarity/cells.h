@@ -67,4 +67,8 @@ void reorder(CellImage& image, const BlockOrder& order);
 std::vector<std::int16_t> coarse_coverage(const CellImage& image, const BlockOrder& order,
                                           int grid);
 
+/// Of the first `count` blocks of the order, sixteen after sixteen as a block of cells: the least
+/// coverage in the block, then its mean red, green, blue, rounded; 0 where a cell shows nothing.
+std::vector<std::uint8_t> block_means(const CellImage& image, std::size_t count);
+
 }  // namespace vsprite

@@ -18,6 +18,7 @@ namespace {
 constexpr std::uint64_t kTilePairs = 1 << 19;  // a tile has about as many, or a 512th of all
 constexpr int kRowsTogether = 32;              // rows that share a part of the columns in cache
 constexpr float kMargin = 2e-5f;               // over the rounding of float bounds, relative
+constexpr std::size_t kMeanBlocks = 32;        // blocks whose means bound the colour; at most 64
 constexpr double kLeastWeight = 1e-150;        // keeps a quotient finite
 
 detail::PairTable make_table(const FeatureSet& set, const Classifier& classifier, float limit) {
@@ -43,6 +44,9 @@ detail::PairTable make_table(const FeatureSet& set, const Classifier& classifier
     table.coverage.push_back(static_cast<float>(s.cells.coverage));
     table.cells.push_back(&s.cells);
     auto coarse = coarse_coverage(s.cells, set.block_order, set.grid);
+    const auto means = block_means(s.cells, kMeanBlocks);
+    table.mean_size = means.size();
+    table.means.insert(table.means.end(), means.begin(), means.end());
     coarse.resize(table.coarse_size, 0);
     table.coarse.insert(table.coarse.end(), coarse.begin(), coarse.end());
   }

@@ -6,9 +6,10 @@
 // N samples are N (N - 1) / 2 pairs. Because the weights are non-negative, D of a vector that is
 // nowhere larger than the features is a lower bound of D, and a bound above the limit refuses the
 // pair. In order of price: the four features without pixels, eight pairs at a time; coverage by
-// squares of 8 x 8 cells, since |sum a_i - sum a_j| <= sum |a_i - a_j|; cells, the most telling
-// blocks first, stopped as soon as the colour so far takes the pair too far. What is accepted, and
-// its distance, is bit for bit what the plain loop gives, on every processor.
+// squares of 8 x 8 cells, since |sum a_i - sum a_j| <= sum |a_i - a_j|; the mean colours of the
+// most telling blocks, since a mean square is no smaller than the square of the mean; cells, the
+// most telling blocks first, stopped as soon as the colour so far takes the pair too far. What is
+// accepted, and its distance, is bit for bit what the plain loop gives, on every processor.
 #pragma once
 
 #include <cstdint>
@@ -41,6 +42,7 @@ class PairFinder {
  public:
   /// `set` must outlive the finder and stay as it is. `limit` > 0, in units of D.
   PairFinder(const FeatureSet& set, const Classifier& classifier, float limit = 1);
+  float limit() const noexcept { return limit_; }
   int tile_count() const noexcept { return static_cast<int>(first_row_.size()) - 1; }
   /// The rows of a tile; they depend on the number of samples alone.
   int first_row(int tile) const noexcept { return first_row_[static_cast<std::size_t>(tile)]; }

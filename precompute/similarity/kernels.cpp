@@ -133,6 +133,7 @@ HWY_INLINE std::uint32_t coarse_difference(const std::int16_t* HWY_RESTRICT a,
 struct Left {
   std::array<std::uint32_t, kRowPart + 64> column;
   std::array<float, kRowPart + 64> bound;
+  std::array<std::uint64_t, kRowPart + 64> budget;  // of colour
   std::size_t count;
 };
 
@@ -200,6 +201,34 @@ HWY_INLINE void filter_coarse(const PairTable& t, std::size_t i, Left& left) {
   left.count = count;
 }
 
+// Whether the colour sum of the most telling blocks stays within `budget`, by their means: with
+// least coverages u, v and 16 cells a block, sum of min(a, b) |c - d|^2 >= 16 min(u, v) |mean c -
+// mean d|^2 (Jensen). Two rounded means may lie one code value further apart than the means do.
+HWY_INLINE bool within_by_means(const std::uint8_t* HWY_RESTRICT a,
+                                const std::uint8_t* HWY_RESTRICT b, std::size_t size,
+                                std::uint64_t budget) {
+  const Cells d;
+  const Sums d32;
+  const auto one = hn::Set(d, std::int16_t{1}), zero = hn::Zero(d);
+  const auto sign = hn::Set(d, std::int16_t{-0x8000});
+  Accumulator sum;
+  clear(sum);
+  sum.overlap = hn::Zero(d32);
+  for (std::size_t block = 0; block < size; block += kBlockBytes) {
+    for (std::size_t c = block; c < block + kBlockCells; c += hn::Lanes(d)) {
+      const auto w = hn::Min(load(a + c), load(b + c));
+      sum.weight = hn::ReorderWidenMulAccumulate(d32, w, one, sum.weight, sum.weight_odd);
+      for (std::size_t k = kBlockCells; k < kBlockBytes; k += kBlockCells) {
+        const auto x = load(a + k + c), y = load(b + k + c);
+        const auto apart = hn::Max(hn::Sub(hn::Sub(hn::Max(x, y), hn::Min(x, y)), one), zero);
+        const auto square = hn::Xor(hn::Mul(apart, apart), sign);
+        sum.color = hn::ReorderWidenMulAccumulate(d32, w, square, sum.color, sum.color_odd);
+      }
+    }
+  }
+  return kBlockCells * std::uint64_t{take_color(sum)} <= budget;
+}
+
 // The largest colour sum that keeps the bound within the limit.
 HWY_INLINE std::uint64_t color_budget(const PairTable& t, std::size_t i, std::size_t j,
                                       float bound) {
@@ -207,6 +236,20 @@ HWY_INLINE std::uint64_t color_budget(const PairTable& t, std::size_t i, std::si
   const double unit =
       t.per_area ? static_cast<double>(std::max(t.coverage[i] + t.coverage[j], 1.0f)) / 2 : 1;
   return static_cast<std::uint64_t>(std::min(most * most * unit, 9e18));
+}
+
+// Takes the means of the most telling blocks into account, and leaves budgets.
+HWY_INLINE void filter_means(const PairTable& t, std::size_t i, Left& left) {
+  const std::uint8_t* means = t.means.data() + i * t.mean_size;
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < left.count; ++n) {
+    const std::uint32_t j = left.column[n];
+    const std::uint64_t budget = color_budget(t, i, j, left.bound[n]);
+    left.column[count] = j;
+    left.budget[count] = budget;
+    count += within_by_means(means, t.means.data() + j * t.mean_size, t.mean_size, budget) ? 1 : 0;
+  }
+  left.count = count;
 }
 
 std::size_t FilterRow(const PairTable& t, std::size_t i, std::size_t begin, std::size_t end,
@@ -219,6 +262,7 @@ std::size_t FilterRow(const PairTable& t, std::size_t i, std::size_t begin, std:
     filter_cheap<false>(t, i, begin, end, left);
   }
   filter_coarse(t, i, left);
+  filter_means(t, i, left);
   compared += left.count;
   if (left.count == 0) return 0;
   const CellImage& a = *t.cells[i];
@@ -235,8 +279,7 @@ std::size_t FilterRow(const PairTable& t, std::size_t i, std::size_t begin, std:
     const std::size_t j = left.column[n];
     Candidate& candidate = out[count];
     candidate.j = left.column[n];
-    if (compare(a, wide, *t.cells[j], color_budget(t, i, j, left.bound[n]), candidate.sums))
-      ++count;
+    if (compare(a, wide, *t.cells[j], left.budget[n], candidate.sums)) ++count;
   }
   return count;
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -432,6 +433,39 @@ Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDis
   stats.transitions = table.transitions.size();
   stats.jumps_per_second = count_jumps(set, table);
   return table;
+}
+
+std::vector<std::uint8_t> needed_transitions(const CostTable& costs,
+                                             std::span<const std::string> tags) {
+  const bool tagged =
+      std::any_of(tags.begin(), tags.end(), [](const auto& t) { return !t.empty(); });
+  const auto root = std::find(costs.kept.begin(), costs.kept.end(), 1) - costs.kept.begin();
+  if (!tagged || root == static_cast<std::ptrdiff_t>(costs.kept.size())) return {};
+  std::vector<std::uint8_t> needed(costs.transitions.size(), 0);
+  const auto need = [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t e = costs.row_start[from]; e < costs.row_start[from + 1]; ++e)
+      if (costs.transitions[e].to == to) needed[e] = 1;
+  };
+  std::map<std::pair<std::string, std::string>, std::tuple<float, std::uint32_t, std::uint32_t>>
+      ways;
+  CostTable free;  // continuations, which no cap cuts
+  free.row_start.assign(1, 0);
+  for (std::uint32_t i = 0; i < sample_count(costs); ++i) {
+    for (const Transition& t : row_of(costs, i)) {
+      if (t.to == i + 1 && t.cost == 0) free.transitions.push_back(t);
+      if (tags[i] == tags[t.to] || tags[i].empty() || tags[t.to].empty()) continue;
+      const std::tuple way(t.cost, i, t.to);
+      const auto [at, fresh] = ways.try_emplace({tags[i], tags[t.to]}, way);
+      at->second = std::min(at->second, way);
+    }
+    free.row_start.push_back(static_cast<std::uint32_t>(free.transitions.size()));
+  }
+  for (const auto& [between, way] : ways) need(std::get<1>(way), std::get<2>(way));
+  const auto first = static_cast<std::uint32_t>(root);
+  for (const Edge& e : missing_edges(free, costs, first)) need(e.first, e.second.to);
+  for (const Edge& e : missing_edges(reversed(free), reversed(costs), first))
+    need(e.second.to, e.first);
+  return needed;
 }
 
 std::vector<float> skip_costs(const FeatureSet& set, const Classifier& classifier,

@@ -44,6 +44,7 @@ struct CostTable {
   std::vector<std::uint32_t> row_start;  ///< (N + 1)
   std::vector<Transition> transitions;   ///< ascending by `to` in a row
   std::vector<std::uint8_t> kept;        ///< (N) 1 = in the strongly connected part
+  std::vector<std::uint8_t> needed;      ///< (transitions) 1 = no cap cuts it; empty: none is
 };
 
 struct TransitionStats {
@@ -68,6 +69,12 @@ struct TransitionStats {
 Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDistance> pairs,
                                   const TransitionConfig& config, TransitionStats& stats,
                                   const Classifier* classifier = nullptr);
+
+/// Of a cast the transitions that no mode's cap may cut, or a tag would be out of reach: from one
+/// tag to another the cheapest, and the cheapest without which a sample could not be reached or
+/// left. `tags`: (N). (transitions); empty where no sample has a tag.
+std::vector<std::uint8_t> needed_transitions(const CostTable& costs,
+                                             std::span<const std::string> tags);
 
 /// (N) T of leaving the next sample out, (D_i,i+1 + D_i+1,i+2) / 2, whether or not these pairs are
 /// accepted; infinity where the clip ends before, or an end was not kept.

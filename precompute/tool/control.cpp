@@ -32,11 +32,14 @@ Result<SolveInput> read_input(StageRun& run) {
   auto file = run.project.transitions(rows->size());
   if (!file) return file.error();
   SolveInput input{std::move(*film), std::move(*rows), std::move(*file), {}, {}};
+  std::vector<std::string> tags;
   for (const SampleRow& row : input.rows) {
     input.velocities.push_back(
         {static_cast<float>(row.velocity_x), static_cast<float>(row.velocity_y)});
     input.durations.push_back(static_cast<std::uint16_t>(row.duration));
+    tags.push_back(row.tag);
   }
+  input.file.costs.needed = needed_transitions(input.file.costs, tags);
   return input;
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
+#include "tool/cast.h"
 #include "vsprite/geometry.h"
 
 namespace vsprite {
@@ -89,6 +91,23 @@ std::vector<std::string> train_lines(const Json& r) {
   return lines;
 }
 
+/// What joins the tags of a cast, each pair of tags once, at its cheapest; inside a tag only what
+/// is dear.
+std::vector<std::string> join_lines(const Json& r) {
+  std::vector<std::string> lines;
+  std::map<std::pair<std::string, std::string>, std::pair<double, std::string>> cheapest;
+  for (const Json& join : r.value("joins", Json::array())) {
+    const std::string from = join.value("from_tag", ""), to = join.value("to_tag", "");
+    const double cost = real_of(join, "cost");
+    if (from == to && cost <= 1) continue;
+    const std::pair offer(cost, join.value("text", ""));
+    const auto [at, fresh] = cheapest.try_emplace({from, to}, offer);
+    at->second = std::min(at->second, offer);
+  }
+  for (const auto& [tags, join] : cheapest) lines.push_back(join.second);
+  return lines;
+}
+
 std::vector<std::string> stage_lines(const StageOutcome& stage) {
   const Json& r = stage.result;
   std::vector<std::string> lines;
@@ -110,6 +129,9 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     const std::string time =
         counted(r, {{"cuts", "cuts"}, {"missing", "frames that the camera left out"}});
     if (!time.empty()) lines.push_back("found: " + time);
+    for (const Json& clip : r.value("cast", Json::array()))
+      if (const std::string line = describe_matching(clip); !line.empty())
+        lines.push_back("matched " + line);
     lines.push_back("noise of the velocity " + fixed_text(real_of(r, "velocity_noise"), 1) +
                     " px/s");
   } else if (stage.name == "train") {
@@ -124,6 +146,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     if (!lost.empty()) lines.push_back("lost: " + lost);
     for (const Json& reason : r.value("reasons", Json::array()))
       if (reason.is_string()) lines.push_back(reason.get<std::string>());
+    for (const std::string& join : join_lines(r)) lines.push_back(join);
   } else if (stage.name == "solve") {
     const auto line = [&](const char* name, const Json& mode) {
       char text[200];

@@ -254,13 +254,14 @@ Result<void> clear_sprites(const Project& project) {
 
 /// Cuts the rows with the numbers `due`, all of one chunk, in parallel; writes them together.
 Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& frames,
-                       const Extraction& extraction, const std::vector<std::size_t>& due,
+                       const Extraction& extraction, const std::vector<std::size_t>& due, int first,
                        int stride) {
   using Png = Result<std::vector<std::uint8_t>>;
   std::vector<Png> pictures(due.size(), Png(std::vector<std::uint8_t>{}));
   tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t k) {
     const SampleRow& row = extraction.rows[due[k]];
-    const auto& frame = frames[static_cast<std::size_t>(row.frame / stride % kChunkFrames)];
+    const auto& frame =
+        frames[static_cast<std::size_t>((row.frame - first) / stride % kChunkFrames)];
     pictures[k] = encode_png(cut_sample(frame, extraction.labels[due[k]], row));
   });
   std::vector<NamedBytes> files;
@@ -275,13 +276,13 @@ Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& fr
 Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extraction& extraction,
                          bool resumed) {
   const auto& rows = extraction.rows;
-  const int stride = stride_of(run.settings);
+  const int first = run.first_frame, stride = stride_of(run.settings);
   for (std::size_t begin = 0; begin < rows.size() && rows[begin].mirror_of < 0;) {
-    const int chunk = rows[begin].frame / stride / kChunkFrames;
+    const int chunk = (rows[begin].frame - first) / stride / kChunkFrames;
     std::size_t end = begin;
     std::vector<std::size_t> due;
     for (; end < rows.size() && rows[end].mirror_of < 0 &&
-           rows[end].frame / stride / kChunkFrames == chunk;
+           (rows[end].frame - first) / stride / kChunkFrames == chunk;
          ++end) {
       std::error_code error;
       if (!resumed || !fs::exists(run.project.sprite_path(rows[end].sample), error))
@@ -293,7 +294,7 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
         return Error{ErrorCode::CorruptData, run.project.path("keyed") + ": chunk " +
                                                  std::to_string(chunk) +
                                                  " was damaged meanwhile: run it again"};
-      if (auto cut = cut_chunk(run.project, *frames, extraction, due, stride); !cut)
+      if (auto cut = cut_chunk(run.project, *frames, extraction, due, first, stride); !cut)
         return cut.error();
     }
     begin = end;
@@ -339,12 +340,14 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   const auto key = parse_key(run.settings.key);
   if (!key) return key.error();
   // The film is opened before any thread is started: opening forks.
-  auto reader = FilmReader::open(run.film);
+  FilmSource source(run.film);
+  source.first = run.first_frame, source.end = run.end_frame;
+  auto reader = FilmReader::open(source);
   if (!reader) return reader.error();
   const FilmInfo info = reader->info();
   const std::string name = fs::path(run.film).filename().string();
 
-  const auto sampled = sample_frames(run.film, key->sample_count);
+  const auto sampled = sample_frames(source, key->sample_count);
   if (!sampled) return sampled.error();
   report(run, kSampled);
   const auto screen = measure_screen(*sampled, *key);

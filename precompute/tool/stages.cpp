@@ -11,6 +11,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "tool/cast.h"
+#include "tool/cast_file.h"
 #include "tool/tiles.h"
 #include "tool/train.h"
 
@@ -66,6 +68,7 @@ Result<LoadedSprites*> sprites_of(StageRun& run) {
 // ---- segment ----
 
 Result<StageKey> segment_key(StageRun& run) {
+  if (is_cast_file(run.film)) return cast_key(run);
   const auto sum = hash_file(run.film);
   if (!sum) return sum.error();
   const Settings& s = run.settings;
@@ -77,13 +80,15 @@ Result<StageKey> segment_key(StageRun& run) {
                    {"anchor", s.anchor},
                    {"mirror", s.mirror},
                    {"smooth", s.smooth},
-                   {"min-clip", s.min_clip}},
+                   {"min-clip", s.min_clip},
+                   {"range", {run.first_frame, run.end_frame}}},
                   {{"film", hex64(*sum)}}};
 }
 
 Result<Json> segment(StageRun& run) {
   run.sprites.reset();
   run.sprites_sum.reset();
+  if (is_cast_file(run.film)) return segment_cast(run);
   const auto key = segment_key(run);
   if (!key) return key.error();
   const Json origin = {
@@ -154,6 +159,7 @@ Result<std::vector<PairDistance>> find_pairs(StageRun& run, const FeatureSet& se
                       {"limit", limit}};
     store = keep_tiles(run.project.path("pairs"), hash_bytes(key.dump()));
   }
+  if (run.search) return run.search(finder, store, &compared, run.listener.progress);
   return accepted_pairs(finder, run.settings.jobs, store, &compared, run.listener.progress);
 }
 
@@ -180,7 +186,13 @@ Result<Json> find_transitions(StageRun& run) {
   std::error_code ignored;
   fs::remove_all(run.project.path("pairs"), ignored);
   Json joins = Json::array();
-  for (const TagJoin& join : stats.joins) joins.push_back(describe(join));
+  for (const TagJoin& join : stats.joins)
+    joins.push_back({{"from", join.from},
+                     {"to", join.to},
+                     {"from_tag", join.from_tag},
+                     {"to_tag", join.to_tag},
+                     {"cost", join.cost},
+                     {"text", describe(join)}});
   return Json{{"pairs", stats.pairs},
               {"compared", stats.compared},
               {"accepted", stats.accepted},

@@ -4,6 +4,7 @@
 // tool/stages.h - the five stages over a work folder: run, or skipped because nothing has changed.
 #pragma once
 
+#include <climits>
 #include <functional>
 #include <optional>
 #include <string>
@@ -34,6 +35,11 @@ struct StageOutcome {
   Json result = Json::object();  ///< its figures, also where it was skipped
 };
 
+/// Finds all pairs within a finder's limit, ascending; accepted_pairs() where it is empty.
+using PairSearch = std::function<Result<std::vector<PairDistance>>(
+    const PairFinder& finder, const TileStore& store, std::uint64_t* compared,
+    const std::function<void(double)>& progress)>;
+
 /// What a run works on. `film` is empty where the film is not at hand: segment must then be
 /// current.
 struct StageRun {
@@ -42,6 +48,8 @@ struct StageRun {
   std::string film;
   std::string pack;
   StageListener listener;
+  int first_frame = 0, end_frame = INT_MAX;  ///< of the film, where a cast names some of it
+  PairSearch search = {};
   std::optional<LoadedSprites> sprites = {};    ///< read once, used by several stages
   std::optional<std::string> sprites_sum = {};  ///< likewise
 };

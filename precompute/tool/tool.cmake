@@ -8,6 +8,8 @@ pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash sqlite3)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
 target_sources(vsprite_precompute PRIVATE
   tool/build_pack.cpp
+  tool/cast.cpp
+  tool/cast_file.cpp
   tool/control.cpp
   tool/files.cpp
   tool/keyed.cpp
@@ -48,4 +50,11 @@ if(TARGET vsprite_window)
   target_sources(vsprite PRIVATE tool/commands/play.cpp)
   target_compile_definitions(vsprite PRIVATE VSPRITE_WINDOW)
   target_link_libraries(vsprite PRIVATE vsprite_window)
+endif()
+if(VSPRITE_MPI)
+  set(MPI_CXX_SKIP_MPICXX ON)
+  find_package(MPI REQUIRED COMPONENTS CXX)
+  target_sources(vsprite PRIVATE tool/ranks.cpp)
+  target_compile_definitions(vsprite PRIVATE VSPRITE_MPI)
+  target_link_libraries(vsprite PRIVATE MPI::MPI_CXX)
 endif()

@@ -85,6 +85,16 @@ done
 expect 0 vsprite doctor --work c.work --json
 is_json /ok /findings/0/state
 
+# An option of a stage is part of the stage's key, or a changed setting would leave the old result.
+options() { vsprite help "$1" | sed -n 's/^ \{2,6\}\(-., \)\?--\([a-z0-9-]*\).*/\2/p' | sort; }
+keys=$(awk '/"settings": \{/ { on = 1 } on { print } /\}/ { on = 0 }' c.work/manifest.json)
+for stage in segment train transitions solve; do
+  for option in $(comm -23 <(options $stage) <(options pack)); do
+    case $option in preview | background | threshold | save) continue ;; esac  # looked at only, or kept in the file
+    echo "$keys" | grep -q "\"$option\":" || fail "--$option is no part of the key of $stage"
+  done
+done
+
 # A flipped byte and another version.
 cp c.vsp bad.vsp
 printf '\377' | dd of=bad.vsp bs=1 seek=$(($(stat -c %s c.vsp) / 2)) conv=notrunc 2>/dev/null

@@ -57,6 +57,16 @@ void extreme(int i, Planes& planes, Random&) {  // the largest sums there are
   std::fill(planes.begin(), planes.begin() + static_cast<std::ptrdiff_t>(planes.size() / 4), 255);
 }
 
+// Every block nearly of one colour: its mean says almost all, and rounds this way or that.
+void nearly_flat(int, Planes& planes, Random& random) {
+  const std::size_t plane = planes.size() / 4;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto level = static_cast<std::uint8_t>(k == 0 ? 250 : 100 + random.below(12));
+    for (std::size_t c = 0; c < plane; ++c)
+      planes[k * plane + c] = static_cast<std::uint8_t>(level + random.below(2));
+  }
+}
+
 void expect_identical(const FeatureSet& set, const Classifier& classifier, float limit) {
   const auto plain = testing::plain_pairs(set, classifier, limit);
   EXPECT_EQ(accepted_pairs(set, classifier, 2, nullptr, {}, limit), plain);
@@ -80,7 +90,8 @@ TEST_P(Adversary, GetsThePlainLoopsPairsOnEveryInstructionSet) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Distance, Adversary,
-                         ::testing::Values(noise, alike, one_cell, empty_or_full, extreme));
+                         ::testing::Values(noise, alike, one_cell, empty_or_full, extreme,
+                                           nearly_flat));
 
 TEST(Distance, AcceptsExactlyWhatThePlainLoopAccepts) {
   FeatureSet set = testing::grown(testing::make_creature(160, 40), 640);

@@ -3,12 +3,17 @@
 #include "tool/tiles.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <cstdio>
 #include <fstream>
 
 #include "support/creature.h"
 #include "support/temp_folder.h"
 #include "tool/files.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {
@@ -40,6 +45,47 @@ TEST(Tiles, AKilledSearchGoesOnAndTakesNothingDamaged) {
   EXPECT_FALSE(keep_tiles(folder.path() + "/pairs", 8).load(3, tile));
   EXPECT_EQ(accepted_pairs(finder, 1, store), accepted_pairs(set, kLoose, 1));
   EXPECT_TRUE(store.load(2, tile));
+}
+
+// A process that is killed outright, again and again, loses at most the tiles it was working on.
+TEST(Tiles, KilledOutrightTenTimesTheSearchEndsInTheSamePairs) {
+  const testing::TempFolder folder;
+  const FeatureSet set = testing::make_creature(3000, 100);
+  const PairFinder finder(set, kLoose);
+  const TileStore store = keep_tiles(folder.path() + "/pairs", 7);
+  Random random{4};
+  int struck = 0;
+  for (int kill_number = 0; kill_number < 10; ++kill_number) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      PairTile tile;
+      for (;;)  // a tile is taken away again, so that there always is one to write
+        for (int t = 0; t < finder.tile_count(); ++t) {
+          if (!store.load(t, tile)) store.save(t, finder.find(t));
+          if (t % 3 == 2) std::remove((folder.path() + "/pairs/000001.bin").c_str());
+        }
+    }
+    ::usleep(static_cast<useconds_t>(2000 + random.below(20000)));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    struck += WIFSIGNALED(status) ? 1 : 0;
+  }
+  EXPECT_EQ(struck, 10);
+  EXPECT_EQ(accepted_pairs(finder, 1, store), accepted_pairs(set, kLoose, 1));
+}
+
+TEST(Tiles, AHundredThousandSamplesSayFirstWhatTheyNeed) {
+  FeatureSet set = testing::make_creature(1000, 100);
+  for (int i = 1000; i < 100000; ++i) {
+    set.samples.push_back(set.samples[static_cast<std::size_t>(i % 1000)]);
+    set.rows.push_back(set.rows[static_cast<std::size_t>(i % 1000)]);
+  }
+  const auto needs = foresee(PairFinder(set, kLoose), 100000);
+  const std::string said = needs ? *needs : needs.error().message;
+  EXPECT_EQ(said.substr(0, 19), "5000 million pairs,") << said;
+  EXPECT_NE(said.find(" s on one core and "), std::string::npos) << said;
+  EXPECT_NE(said.find(" GB of memory"), std::string::npos) << said;
 }
 
 TEST(Tiles, ForeseesWhatIsDue) {

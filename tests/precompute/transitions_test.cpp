@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "control/lanes.h"
 #include "support/creature.h"
 
 namespace vsprite {
@@ -196,6 +197,27 @@ TEST(Casts, AJoinIsTheCheapestThereIs) {
     if (join.from_tag == "jump" && join.to_tag == "idle") kept = std::min(kept, join.cost);
   }
   EXPECT_EQ(kept, best);
+}
+
+// However low a mode's cap: every sample of a cast stays in reach of every other.
+TEST(Casts, NoCapCutsTheWaysThatTagsNeed) {
+  const FeatureSet set = make_cast();
+  const Classifier strict{{0.02, 0.3, 0.004, 0.02, 0.02, 0.004}, 1};
+  TransitionStats stats;
+  auto costs = make_cost_table(set, accepted_pairs(set, strict, 1), {}, stats, &strict);
+  ASSERT_TRUE(costs);
+  std::vector<std::string> tags;
+  for (const SampleRow& row : set.rows) tags.push_back(row.tag);
+  const auto parts_under_cap = [&] {
+    const Edges edges = make_edges(*costs, {}, {.cap = 0.001});
+    CostTable graph{edges.row_start, {}, costs->kept, {}};
+    for (const std::uint32_t to : edges.to) graph.transitions.push_back({to, 0});
+    return find_components(graph).count;
+  };
+  EXPECT_GT(parts_under_cap(), 1u);
+  costs->needed = needed_transitions(*costs, tags);
+  EXPECT_EQ(parts_under_cap(), 1u);
+  EXPECT_TRUE(needed_transitions(*costs, std::vector<std::string>(tags.size())).empty());
 }
 
 }  // namespace

@@ -5,16 +5,20 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "tool/cast_file.h"
 #include "tool/commands/verbs.h"
 #include "tool/preview.h"
 #include "tool/report.h"
+#ifdef VSPRITE_MPI
+#include "tool/ranks.h"
+#endif
 
 namespace vsprite {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSegment = 0, kPack = 4;
+constexpr int kSegment = 0, kTransitions = 2, kPack = 4;
 
 /// Where a run reads and writes.
 struct Places {
@@ -42,7 +46,8 @@ Result<Places> find_places(const Settings& settings, int first) {
 }
 
 Result<std::vector<StageOutcome>> run_range(const Places& places, const Settings& settings,
-                                            Console& console, int first, int last) {
+                                            Console& console, int first, int last,
+                                            const PairSearch& search = {}) {
   auto project = Project::open(places.work, first == kSegment);
   if (!project) return project.error();
   if (last == kPack) {
@@ -51,13 +56,15 @@ Result<std::vector<StageOutcome>> run_range(const Places& places, const Settings
     remove_stale_temporaries(folder.empty() ? "." : folder, pack.filename().string() + ".tmp.");
   }
   StageRun run{*project, settings, places.film, places.pack, console.listener()};
+  run.search = search;
   return run_stages(run, first, last);
 }
 
-Result<int> run_one(const Settings& settings, Console& console, int stage) {
+Result<int> run_one(const Settings& settings, Console& console, int stage,
+                    const PairSearch& search = {}) {
   const auto places = find_places(settings, stage);
   if (!places) return places.error();
-  const auto outcomes = run_range(*places, settings, console, stage, stage);
+  const auto outcomes = run_range(*places, settings, console, stage, stage, search);
   if (!outcomes) return outcomes.error();
   console.text(build_text(*outcomes));
   console.document(build_json(*outcomes));
@@ -86,6 +93,9 @@ namespace {
 Result<int> run_preview(const Settings& settings, Console& console) {
   const auto places = find_places(settings, kSegment);
   if (!places) return places.error();
+  if (is_cast_file(places->film))
+    return Error{ErrorCode::BadFormat,
+                 places->film + ": is a cast, with --preview a film is due: one of its clips"};
   const std::string output = settings.output.empty()
                                  ? fs::path(settings.film).stem().string() + ".preview.png"
                                  : settings.output;
@@ -115,7 +125,18 @@ Result<int> run_segment(const Settings& s, Console& c) {
 Result<int> run_stage_verb(const Settings& s, Console& c, int stage) {
   return run_one(s, c, stage);
 }
-Result<int> run_transitions(const Settings& s, Console& c) { return run_one(s, c, 2); }
+Result<int> run_transitions(const Settings& s, Console& c) {
+#ifdef VSPRITE_MPI
+  const auto places = find_places(s, kTransitions);
+  const Result<std::string> folder =
+      places ? Result<std::string>(places->work) : Result<std::string>(places.error());
+  return run_over_ranks(folder, s.jobs, [&](const PairSearch& search) {
+    return run_one(s, c, kTransitions, search);
+  });
+#else
+  return run_one(s, c, kTransitions);
+#endif
+}
 Result<int> run_solve(const Settings& s, Console& c) { return run_one(s, c, 3); }
 Result<int> run_pack(const Settings& s, Console& c) { return run_one(s, c, kPack); }
 

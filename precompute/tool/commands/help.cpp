@@ -7,7 +7,7 @@ namespace vsprite {
 namespace {
 
 constexpr Verb kVerbs[] = {
-    {"segment", "FILM", "film -> mattes, sprites, velocities",
+    {"segment", "FILM|CAST.toml", "film -> mattes, sprites, velocities",
      "vsprite segment hamster.mp4 --key '#2060c0' --max-size 128", run_segment},
     {"label", "FILM|PACK|--work DIR", "say which jumps look right, in a window or from a file",
      "vsprite label --work hamster.work --pairs 200", run_label},
@@ -19,10 +19,11 @@ constexpr Verb kVerbs[] = {
      "vsprite solve --work hamster.work --turn-w1 1.5 --directions 16", run_solve},
     {"pack", "FILM|PACK|--work DIR", "all of it -> one file",
      "vsprite pack --work hamster.work -o hamster.vsp", run_pack},
-    {"build", "FILM", "segment, train, transitions, solve, pack; what stands is not done again",
+    {"build", "FILM|CAST.toml",
+     "segment, train, transitions, solve, pack; what stands is not done again",
      "vsprite build hamster.mp4 -o hamster.vsp", run_build},
 #ifdef VSPRITE_WINDOW
-    {"play", "PACK|FILM", "a window in which the character answers keys, pad and mouse",
+    {"play", "PACK|FILM|CAST.toml", "a window in which the character answers keys, pad and mouse",
      "vsprite play hamster.vsp", run_play},
 #endif
     {"steer", "PACK", "drive it without a window, and measure how it answers",
@@ -76,6 +77,7 @@ std::string overview_screen() {
       "\n"
       "usage: vsprite build FILM -o PACK          everything, with settings measured from the "
       "film\n"
+      "       vsprite build CAST.toml -o PACK     many short clips as one character\n"
       "       vsprite <command> [options]         one step; the work folder is --work DIR "
       "(FILM.work)\n"
       "\n"

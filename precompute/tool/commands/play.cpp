@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 
+#include "tool/cast_file.h"
 #include "tool/commands/verbs.h"
 #include "vsprite/pack.h"
 
@@ -22,6 +23,7 @@ bool stands_in_full(const Settings& settings) {
   if (record == nullptr || !sum) return false;
   const Json made = record->value("settings", Json::object());
   const Json inputs = record->value("inputs", Json::object());
+  if (is_cast_file(settings.film)) return !made.value("draft", true) && made.contains("cast");
   return !made.value("draft", true) && inputs.value("film", Json()) == hex64(*sum);
 }
 

@@ -1,0 +1,357 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "tool/cast.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "film/match.h"
+#include "tool/cast_file.h"
+
+namespace vsprite {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kSegmented = 0.9;  // share of the time, for the progress bar
+constexpr int kTogether = 64;       // pictures in memory
+
+/// One clip, segmented.
+struct Member {
+  const CastClip* clip = nullptr;
+  Project project;
+  Json result;
+  std::vector<SampleRow> rows;
+  Rate rate;
+  MeanColor color;
+  Matching matching;
+};
+
+Settings settings_of(const Settings& settings, const CastClip& clip) {
+  Settings own = settings;
+  if (!clip.key.empty()) own.key = clip.key;
+  if (!clip.subject.empty()) own.subject = clip.subject;
+  own.mirror = false;  // mirrored samples are made when all are numbered
+  return own;
+}
+
+std::string folder_of(std::size_t index, const CastClip& clip) {
+  std::string digits = std::to_string(index);
+  if (digits.size() < 2) digits.insert(0, 1, '0');
+  std::string name = clip.tag.empty() ? fs::path(clip.file).stem().string() : clip.tag;
+  std::replace(name.begin(), name.end(), '/', '-');
+  return digits + "-" + name;
+}
+
+/// Folders of clips that the cast does not hold any more.
+void remove_others(const std::string& folder, const std::set<std::string>& wanted) {
+  std::error_code error;
+  std::vector<fs::path> others;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    if (wanted.count(at->path().filename().string()) == 0) others.push_back(at->path());
+  for (const fs::path& other : others) fs::remove_all(other, error);
+}
+
+bool ends_everything(ErrorCode code) {
+  return code == ErrorCode::CannotWrite || code == ErrorCode::CannotCreate ||
+         code == ErrorCode::InUse || code == ErrorCode::OutOfMemory ||
+         code == ErrorCode::Interrupted;
+}
+
+/// Rows of a finished folder as they stand there, and how they look.
+Result<void> read_member(Member& member) {
+  auto rows = member.project.samples();
+  if (!rows) return rows.error();
+  const auto film = member.project.film();
+  if (!film) return film.error();
+  member.rate = {film->fps_numerator, film->fps_denominator};
+  member.rows = std::move(*rows);
+  PictureReader reader(member.project, member.rows);
+  for (std::size_t i = 0; i < member.rows.size(); ++i) {
+    const auto picture = reader.picture(static_cast<int>(i));
+    if (!picture) return picture.error();
+    member.color.add(*picture);
+  }
+  return {};
+}
+
+/// Clip `index` of `count` in its own folder.
+Result<Member> segment_member(StageRun& run, const CastClip& clip, std::size_t index,
+                              std::size_t count) {
+  const std::string folder = run.project.path("clips/" + folder_of(index, clip));
+  auto project = Project::open(folder, true);
+  if (!project) return project.error();
+  Member member{&clip, std::move(*project), {}, {}, {}, {}, {}};
+  const Settings own = settings_of(run.settings, clip);
+  StageListener listener;
+  const std::string name = clip.tag.empty() ? clip.file : clip.tag;
+  if (run.listener.note)
+    listener.note = [&run, name](const std::string& text) {
+      run.listener.note(name + ": " + text);
+    };
+  if (run.listener.progress)
+    listener.progress = [&run, index, count](double share) {
+      run.listener.progress(kSegmented * (static_cast<double>(index) + share) /
+                            static_cast<double>(count));
+    };
+  StageRun part{member.project, own, clip.path, {}, listener};
+  part.first_frame = clip.first;
+  part.end_frame = clip.last == INT_MAX ? INT_MAX : clip.last + 1;
+  const auto outcomes = run_stages(part, 0, 0);
+  if (!outcomes) return outcomes.error();
+  member.result = outcomes->front().result;
+  if (auto read = read_member(member); !read) return read.error();
+  return member;
+}
+
+Result<std::vector<Member>> segment_members(StageRun& run, const std::vector<CastClip>& clips) {
+  std::set<std::string> wanted;
+  for (std::size_t k = 0; k < clips.size(); ++k) wanted.insert(folder_of(k, clips[k]));
+  if (auto made = make_folder(run.project.path("clips")); !made) return made.error();
+  remove_others(run.project.path("clips"), wanted);
+  std::vector<Member> members;
+  std::optional<Error> fault;
+  for (std::size_t k = 0; k < clips.size(); ++k) {
+    auto member = segment_member(run, clips[k], k, clips.size());
+    if (!member && ends_everything(member.error().code)) return member.error();
+    if (!member && !fault)
+      fault = member.error();
+    else if (!member && run.listener.note)
+      run.listener.note(member.error().message);
+    if (member) members.push_back(std::move(*member));
+  }
+  if (fault) return *fault;
+  return members;
+}
+
+// ---- one sprite set ----
+
+/// A picture of the set, and the picture that it is made of.
+struct Origin {
+  const Member* member = nullptr;
+  int sample = 0;  ///< in the member's folder
+};
+
+struct CastRows {
+  std::vector<SampleRow> rows;
+  std::vector<Origin> origins;  ///< (rows)
+  int clips = 0;
+};
+
+/// Image pixels per pixel of the first clip's film: the first clip's, where all fit.
+double common_scale(const std::vector<Member>& members, int max_size) {
+  double longest = 1;
+  for (const Member& member : members)
+    for (const SampleRow& row : member.rows)
+      longest = std::max(longest, member.matching.scale * std::max(row.width, row.height));
+  return std::min(members.front().rows.front().scale, (max_size - 1) / longest);
+}
+
+SampleRow matched(const SampleRow& row, const Member& member, double scale) {
+  const double k = member.matching.scale;
+  const auto rounded = [](double value) { return std::floor(value * 1000 + 0.5) / 1000; };
+  SampleRow out = row;
+  out.source = member.clip->file;
+  out.tag = member.clip->tag;
+  if (member.clip->velocity)
+    out.velocity_x = (*member.clip->velocity)[0], out.velocity_y = (*member.clip->velocity)[1];
+  out.velocity_x = rounded(k * out.velocity_x), out.velocity_y = rounded(k * out.velocity_y);
+  if (k == 1 && row.scale == scale) return out;
+  out.left = k * row.left, out.top = k * row.top;
+  out.anchor_x = k * row.anchor_x, out.anchor_y = k * row.anchor_y;
+  out.area = rounded(k * k * row.area);
+  out.scale = scale;
+  out.width = std::ceil(k * row.width * scale - 1e-6) / scale;
+  out.height = std::ceil(k * row.height * scale - 1e-6) / scale;
+  return out;
+}
+
+CastRows number_through(const std::vector<Member>& members, const Settings& settings) {
+  CastRows cast;
+  const double scale = common_scale(
+      members, settings.draft ? std::min(settings.max_size, kDraftSize) : settings.max_size);
+  std::vector<int> mirrored_samples;
+  for (const Member& member : members) {
+    int last = -1;
+    for (const SampleRow& row : retimed(member.rows, member.rate, members.front().rate)) {
+      SampleRow out = matched(row, member, scale);
+      if (row.clip != last) last = row.clip, ++cast.clips;
+      out.sample = static_cast<int>(cast.rows.size());
+      out.clip = cast.clips - 1;
+      if (member.clip->mirror.value_or(settings.mirror)) mirrored_samples.push_back(out.sample);
+      cast.rows.push_back(std::move(out));
+      cast.origins.push_back({&member, row.sample});
+    }
+  }
+  int last = -1, mirrored_clips = 0;
+  for (const int sample : mirrored_samples) {
+    const SampleRow& row = cast.rows[static_cast<std::size_t>(sample)];
+    if (row.clip != last) last = row.clip, ++mirrored_clips;
+    cast.rows.push_back(
+        mirrored(row, static_cast<int>(cast.rows.size()), cast.clips + mirrored_clips - 1));
+  }
+  cast.clips += mirrored_clips;
+  return cast;
+}
+
+Result<std::vector<std::uint8_t>> picture_of(const Origin& origin, const SampleRow& row) {
+  const Member& member = *origin.member;
+  const SampleRow& old = member.rows[static_cast<std::size_t>(origin.sample)];
+  auto picture = read_sprite(member.project, old);
+  if (!picture) return picture.error();
+  const double ratio = old.scale / (member.matching.scale * row.scale);
+  if (ratio != 1 || member.matching.changes_color()) {
+    const auto side = [&row](double length) {
+      return static_cast<int>(std::lround(length * row.scale));
+    };
+    *picture = redrawn(*picture, ratio, side(row.width), side(row.height), member.matching.gain);
+  }
+  return encode_png(*picture);
+}
+
+Result<void> write_pictures(StageRun& run, const CastRows& cast) {
+  const Project& project = run.project;
+  std::error_code error;
+  fs::remove(project.path("samples.csv"), error);
+  fs::remove_all(project.path("sprites"), error);
+  if (auto made = make_folder(project.path("sprites")); !made) return made.error();
+  using Png = Result<std::vector<std::uint8_t>>;
+  const std::size_t count = cast.origins.size();
+  for (std::size_t begin = 0; begin < count; begin += kTogether) {
+    const std::size_t size = std::min<std::size_t>(kTogether, count - begin);
+    std::vector<Png> pictures(size, Png(std::vector<std::uint8_t>{}));
+    tbb::parallel_for(std::size_t{0}, size, [&](std::size_t k) {
+      pictures[k] = picture_of(cast.origins[begin + k], cast.rows[begin + k]);
+    });
+    std::vector<NamedBytes> files;
+    for (std::size_t k = 0; k < size; ++k) {
+      if (!pictures[k]) return pictures[k].error();
+      files.push_back({project.sprite_path(cast.rows[begin + k].sample), *pictures[k]});
+    }
+    if (auto wrote = write_files(files); !wrote) return wrote.error();
+    if (run.listener.progress)
+      run.listener.progress(kSegmented + (1 - kSegmented) * static_cast<double>(begin + size) /
+                                             static_cast<double>(count));
+  }
+  return sync_folder(project.path("sprites"));
+}
+
+// ---- the report ----
+
+double frames_a_second(Rate rate) { return static_cast<double>(rate.numerator) / rate.denominator; }
+
+Json member_json(const Member& member, std::size_t index, Rate rate) {
+  Json entry = {{"file", member.clip->file},
+                {"tag", member.clip->tag},
+                {"folder", "clips/" + folder_of(index, *member.clip)},
+                {"frames", member.result.value("frames", 0)},
+                {"samples", member.rows.size()},
+                {"background", member.result.value("background", "")},
+                {"scale", member.matching.scale},
+                {"color", member.matching.gain}};
+  entry["fps"] = {frames_a_second(member.rate), frames_a_second(rate)};
+  if (member.clip->velocity) entry["velocity"] = *member.clip->velocity;
+  return entry;
+}
+
+Json cast_result(const StageRun& run, const std::vector<Member>& members, const CastRows& cast) {
+  Json out = members.front().result;
+  out.erase("dropped");
+  out["film"] = fs::path(run.film).filename().string();
+  out["samples"] = cast.rows.size();
+  out["clips"] = cast.clips;
+  for (const char* sum : {"frames", "duplicates", "cuts", "missing", "dropped_border",
+                          "dropped_empty", "dropped_touched", "dropped_hidden", "dropped_short"}) {
+    std::int64_t total = 0;
+    for (const Member& member : members) total += member.result.value(sum, std::int64_t{0});
+    out[sum] = total;
+  }
+  double noise = 0;
+  for (const Member& member : members)
+    noise = std::max(noise, member.matching.scale * member.result.value("velocity_noise", 0.0));
+  out["velocity_noise"] = noise;
+  out["background"] = "each clip its own";
+  out["cast"] = Json::array();
+  for (std::size_t k = 0; k < members.size(); ++k)
+    out["cast"].push_back(member_json(members[k], k, members.front().rate));
+  return out;
+}
+
+}  // namespace
+
+Result<StageKey> cast_key(StageRun& run) {
+  const auto clips = read_cast(run.film);
+  if (!clips) return clips.error();
+  const Settings& s = run.settings;
+  StageKey key{"segment",
+               {{"key", s.key},
+                {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
+                {"draft", s.draft},
+                {"subject", s.subject},
+                {"anchor", s.anchor},
+                {"mirror", s.mirror},
+                {"smooth", s.smooth},
+                {"min-clip", s.min_clip}},
+               Json::object()};
+  key.settings["cast"] = Json::array();
+  for (const CastClip& clip : *clips) {
+    Json entry = {{"file", clip.file}, {"frames", {clip.first, clip.last}}, {"tag", clip.tag},
+                  {"key", clip.key},   {"subject", clip.subject},           {"match", clip.match}};
+    if (clip.mirror) entry["mirror"] = *clip.mirror;
+    if (clip.velocity) entry["velocity"] = *clip.velocity;
+    key.settings["cast"].push_back(std::move(entry));
+    const auto sum = hash_file(clip.path);
+    if (!sum) return sum.error();
+    key.inputs[clip.file] = hex64(*sum);
+  }
+  return key;
+}
+
+Result<Json> segment_cast(StageRun& run) {
+  const auto clips = read_cast(run.film);
+  if (!clips) return clips.error();
+  auto members = segment_members(run, *clips);
+  if (!members) return members.error();
+  const Member& first = members->front();
+  for (Member& member : *members)
+    if (member.clip->match && &member != &first)
+      member.matching =
+          match_clip(median_area(member.rows), member.color, median_area(first.rows), first.color);
+  const CastRows cast = number_through(*members, run.settings);
+  if (auto wrote = write_pictures(run, cast); !wrote) return wrote.error();
+  if (auto wrote = write_file(run.project.path("samples.csv"), format_samples(cast.rows)); !wrote)
+    return wrote.error();
+  return cast_result(run, *members, cast);
+}
+
+std::string describe_matching(const Json& clip) {
+  const auto number = [](double value, int decimals) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+    return std::string(text);
+  };
+  std::string changed;
+  const auto add = [&changed](const std::string& text) {
+    changed += (changed.empty() ? "" : ", ") + text;
+  };
+  if (const double scale = clip.value("scale", 1.0); scale != 1) add("scale x " + number(scale, 2));
+  const Json gain = clip.value("color", Json::array());
+  if (gain.size() == 3 && (gain[0] != 1 || gain[1] != 1 || gain[2] != 1)) {
+    std::string text = "colour x";
+    for (const Json& value : gain) text += " " + number(value.get<double>(), 2);
+    add(text);
+  }
+  const Json fps = clip.value("fps", Json::array());
+  if (fps.size() == 2 && fps[0] != fps[1])
+    add(number_text(fps[0].get<double>()) + " to " + number_text(fps[1].get<double>()) +
+        " frames a second");
+  if (changed.empty()) return {};
+  const std::string tag = clip.value("tag", ""), file = clip.value("file", "");
+  return (tag.empty() ? file : tag + " (" + file + ")") + ": " + changed;
+}
+
+}  // namespace vsprite
