@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// keyer_bench [speed|truth|chosen|unseen|decision|temporal|ours]... - this keyer beside what is
-// free, in one run:
+// keyer_bench [speed|truth|chosen|unseen|decision|temporal|ours|0..13]... - this keyer beside what
+// is free, in one run:
 //
 //   speed    frames/s at 1080p on one core, the rivals' reading and writing of frames taken off
 //   truth    the bundled film against its exact matte
@@ -11,6 +11,7 @@
 //   decision grey parts read as opaque or as translucent, on the fish and on a grey mouse
 //   temporal whether mixing with the neighbours in time would lower the flicker
 //   ours     the rivals are left out of truth and chosen: for choosing
+//   0..13    only these of the 14 screens
 //
 // ffmpeg's filters are given the screen's true colour and the best of their settings is reported,
 // for each film; this keyer and closed-form matting (seeds from this keyer's alpha, widened) are
@@ -437,13 +438,21 @@ std::vector<CutOut> fur_cuts(int count) {
   return cuts;
 }
 
+// The screens whose numbers were given, else all.
+std::set<std::string> screens;
+bool wanted(const testing::Condition& condition) {
+  const auto number = &condition - testing::conditions().data();
+  return screens.empty() || screens.count(std::to_string(number)) > 0;
+}
+
 void run_pool(const char* title, const std::vector<CutOut>& cuts, const testing::TempFolder& folder,
               std::size_t closed_form_every) {
   std::printf("%s: mean |e|, root mean square, gradient, flicker (percent, within %d px)\n", title,
               kBand);
   int won = 0, all = 0;
   for (const testing::Condition& condition : testing::conditions())
-    compare(composite_case(condition, cuts, folder), folder, closed_form_every, won, all);
+    if (wanted(condition))
+      compare(composite_case(condition, cuts, folder), folder, closed_form_every, won, all);
   if (closed_form_every > 0) std::printf("  lowest of all four errors on %d of %d\n", won, all);
 }
 
@@ -462,12 +471,14 @@ void run_decision(const testing::TempFolder& folder) {
       std::printf("  %6.2f at %.2f", measure(c, key_ours(c, n)).mean, static_cast<double>(n));
     }
     std::printf("\n");
+    std::fflush(stdout);
   };
   row(truth_case(0, 6, 4));
   std::vector<CutOut> mice;
   for (int k = 0; k < 60; ++k) mice.push_back(testing::grey_mouse(k, 640, 480));
   const auto fish = fish_cuts(60);
   for (const testing::Condition& condition : testing::conditions()) {
+    if (!wanted(condition)) continue;
     for (const bool is_fish : {true, false}) {
       Case c = composite_case(condition, is_fish ? fish : mice, folder);
       c.name = (is_fish ? "fish, " : "grey mouse, ") + c.name;
@@ -605,6 +616,9 @@ void run_speed(const testing::TempFolder& folder) {
 
 int main(int argc, char** argv) {
   std::set<std::string> parts(argv + 1, argv + argc);
+  for (const std::string& part : parts)
+    if (part.find_first_not_of("0123456789") == std::string::npos) screens.insert(part);
+  for (const std::string& number : screens) parts.erase(number);
   if (parts.empty()) parts = {"speed", "truth", "chosen", "unseen"};
   const bool alone = parts.count("ours") > 0;
   const testing::TempFolder folder;

@@ -28,6 +28,7 @@ using detail::Silhouette;
 using detail::Span;
 
 constexpr int kMostBlobs = 32;
+constexpr int kShadow = 6;     // cells around the body where its contact shadow and smear lie
 constexpr int kUntouched = 6;  // cells: deeper in the picture is taken as it is
 
 }  // namespace
@@ -43,6 +44,7 @@ struct Keyer::Impl {
   // Maps of cells.
   std::vector<float> gain, guide, own[3];
   std::vector<std::uint8_t> inner;      // 1: all opaque around, 2: all clear, else 0
+  Mask shaded;                          // where a standing plate may lie in the subject's shadow
   std::vector<float> product, scratch;  // working room
   // Maps of pixels over the patch, `stride` = 2 x patch.width apart.
   int left = 0, top = 0, width = 0, height = 0;  // film pixels
@@ -167,6 +169,7 @@ void Keyer::Impl::mark_inner() {
   some = dilate(some, 1);
   full = erode(full, 1);
   inner.resize(n);
+  if (screen->kind == KeyKind::Plate) shaded = dilate(patch.seeds, kShadow);
   lanes().inner(some.in.data(), full.in.data(), n, inner.data(), gain.data());
 }
 
@@ -179,6 +182,14 @@ void up_row(const std::vector<float>& plane, int width, int height, Span span, i
               plane.data() + static_cast<std::ptrdiff_t>(second) * width + span.begin, 0.25f,
               static_cast<std::size_t>(span.size()), row);
   lanes().double_row(row, span.size(), out + 2 * span.begin);
+}
+
+// Shadow covers less than a third of the light; above 0.6 alpha stays, between it is stretched.
+std::uint8_t out_of_shade(std::uint8_t alpha) {
+  constexpr int kNone = 77;
+  constexpr int kAll = 153;
+  if (alpha >= kAll) return alpha;
+  return static_cast<std::uint8_t>(alpha <= kNone ? 0 : (alpha - kNone) * kAll / (kAll - kNone));
 }
 
 void Keyer::Impl::raise_alpha() {
@@ -203,6 +214,11 @@ void Keyer::Impl::raise_alpha() {
                         2 * span.size(), alpha.data() + first);
     // The neighbours' gain reaches half a cell into what is all opaque or all clear.
     lanes().settle(kinds + span.begin, span.size(), alpha.data() + first);
+    if (shade > 0)
+      for (int x = span.begin; x < span.end; ++x)
+        if (shaded.row(y / 2)[x])
+          for (std::uint8_t* a = alpha.data() + at + 2 * x; a < alpha.data() + at + 2 * x + 2; ++a)
+            *a = out_of_shade(*a);
     std::fill(alpha.begin() + static_cast<std::ptrdiff_t>(at) + width,
               alpha.begin() + static_cast<std::ptrdiff_t>(at + stride), std::uint8_t{0});
   }

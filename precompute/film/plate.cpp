@@ -391,7 +391,7 @@ int choose_key(const float (&color)[3]) {
     light[c] = detail::linear_of_sums()[static_cast<std::size_t>(
         std::clamp(4 * color[c] + 0.5f, 0.0f, 1020.0f))];
   int best = -1;
-  float strength = 0.08f;
+  float strength = 0.02f;
   const float largest = std::max({light[0], light[1], light[2]});
   for (int key = 0; key < detail::kKeyCount; ++key) {
     const bool warm = key == 0 || key == 5;
@@ -485,6 +485,19 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
   return screen;
 }
 
+// Where a standing plate is of the subject's own colour, the mouse before the dark wall, its shadow
+// and reflection differ from it as much as it does.
+void mark_unlike(const float (&subject)[3], ScreenModel& screen) {
+  const float least = 0.35f * screen.subject_contrast;
+  screen.unlike.resize(screen.cells[0].size());
+  for (std::size_t i = 0; i < screen.unlike.size(); ++i) {
+    const float away =
+        detail::distance_squared(subject[0] - screen.cells[0][i], subject[1] - screen.cells[1][i],
+                                 subject[2] - screen.cells[2][i]);
+    screen.unlike[i] = away > least * least ? 1 : 0;
+  }
+}
+
 // What the subject's own figures have to say: how strong its colours are against the key, and how
 // large it is.
 void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
@@ -493,6 +506,8 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   std::vector<std::uint32_t> strengths(400);  // v in fiftieths
   std::uint64_t strength_count = 0;
   std::vector<std::uint32_t> contrasts(512);
+  std::vector<std::uint64_t> colors[3];  // sums of four, by contrast
+  for (auto& sums : colors) sums.resize(contrasts.size());
   std::uint64_t contrast_count = 0;
   std::vector<int> areas;
   std::vector<int> labels;
@@ -506,8 +521,10 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
     const Mask inside = erode(s.mask, 1);
     for (std::size_t i = 0; i < inside.in.size(); ++i) {
       if (!inside.in[i]) continue;
-      ++contrasts[std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1)];
+      const auto of = std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1);
+      ++contrasts[of];
       ++contrast_count;
+      for (std::size_t p = 0; p < 3; ++p) colors[p][of] += s.grid.plane[p][i];
     }
     if (screen.key < 0) continue;
     const Mask deep = erode(s.mask, 4);
@@ -531,6 +548,19 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   bin = 0;
   while (bin < contrasts.size() - 1 && 2 * (seen += contrasts[bin]) < contrast_count) ++bin;
   screen.subject_contrast = static_cast<float>(bin);
+  if (screen.kind == KeyKind::Plate && contrast_count > 0) {
+    float subject[3];
+    for (int p = 0; p < 3; ++p) {
+      double sum = 0;
+      double count = 0;
+      for (std::size_t k = bin; k < contrasts.size(); ++k) {
+        sum += static_cast<double>(colors[p][k]);
+        count += contrasts[k];
+      }
+      subject[p] = static_cast<float>(0.25 * sum / count);
+    }
+    mark_unlike(subject, screen);
+  }
   if (areas.empty()) return;
   std::nth_element(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2),
                    areas.end());

@@ -283,11 +283,18 @@ void look_closely(const ScreenModel& screen, const Frame& frame, Silhouette& s) 
 }
 
 // Without a key faint differences are shadows, reflections and the codec's smear: they count only
-// within three cells of what stands out as the subject does.
+// within three cells of what stands out as the subject does, before a plate that is unlike it.
 void drop_faint(const ScreenModel& screen, Silhouette& s) {
   Mask strong(s.mask.width, s.mask.height);
   const float least = std::max(2 * screen.threshold, 0.2f * screen.subject_contrast);
   lanes().above(s.contrast.data(), least, strong.in.size(), strong.in.data());
+  if (!screen.unlike.empty())
+    for (int y = 0; y < s.window.height; ++y)
+      lanes().spread_into(
+          screen.unlike.data() +
+              static_cast<std::ptrdiff_t>(s.window.top + y) * ((screen.width + 1) / 2) +
+              s.window.left,
+          static_cast<std::size_t>(s.window.width), false, strong.row(y));
   const Mask near = dilate(strong, 3);
   lanes().spread_into(near.in.data(), near.in.size(), false, s.mask.in.data());
 }

@@ -128,8 +128,8 @@ void fill_holes(const Patch& patch, Mask& seeds) {
     if (!open[static_cast<std::size_t>(labels[i])]) seeds.in[i] = 1;
 }
 
-// A screen without a key says nothing of translucence: what stands out, two cells inside, is
-// opaque.
+// A standing plate of any texture says nothing of translucence: what stands out, two cells inside,
+// is opaque.
 void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
   Mask strong(patch.width, patch.height);
   lanes().above(patch.contrast.data(), 2 * screen.threshold, strong.in.size(), strong.in.data());
@@ -152,7 +152,7 @@ void find_seeds(const ScreenModel& screen, Patch& patch) {
                   count, sure.in.data() + at, likely.in.data() + at);
   });
   patch.seeds = erode(dilate(sure, 1), 2);
-  if (screen.key < 0) add_inside(screen, patch, patch.seeds);
+  if (screen.kind == KeyKind::Plate) add_inside(screen, patch, patch.seeds);
   Mask deep = erode_disc(patch.region, 5);
   const Mask all_likely = erode(likely, 2);
   lanes().spread_into(all_likely.in.data(), n, false, deep.in.data());
