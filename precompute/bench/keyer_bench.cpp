@@ -1,18 +1,24 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// keyer_bench [speed|truth|chosen|unseen]... - this keyer beside what is free, in one run:
+// keyer_bench [speed|truth|chosen|unseen|decision|temporal|ours|0..13]... - this keyer beside what
+// is free, in one run:
 //
 //   speed    frames/s at 1080p on one core, the rivals' reading and writing of frames taken off
 //   truth    the bundled film against its exact matte
 //   chosen   the bundled film's fish before 14 screens: the films that constants were chosen with
 //   unseen   a ball of fur with a veil before the same screens: no constant was chosen with them
+//   decision grey parts read as opaque or as translucent, on the fish and on a grey mouse
+//   temporal whether mixing with the neighbours in time would lower the flicker
+//   ours     the rivals are left out of truth and chosen: for choosing
+//   0..13    only these of the 14 screens
 //
 // ffmpeg's filters are given the screen's true colour and the best of their settings is reported,
 // for each film; this keyer and closed-form matting (seeds from this keyer's alpha, widened) are
 // given nothing. Errors are taken within 10 px of the true edge: mean |e|, root of mean e^2, mean
 // |grad e|, and flicker, the mean change of e from one frame to the next; all in percent.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -21,6 +27,11 @@
 #include <fstream>
 #include <set>
 #include <string>
+
+#ifdef VSPRITE_BENCH_OPENCV
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/background_segm.hpp>
+#endif
 
 #include "capture/goldfish.h"
 #include "film/color.h"
@@ -45,6 +56,7 @@ struct Case {
   std::vector<Frame> frames, samples;
   std::vector<std::vector<float>> truth;
   std::vector<std::vector<char>> band;
+  std::vector<char> follows;  // the frame before is the film's frame before
   double color[3] = {};
 };
 
@@ -93,7 +105,7 @@ Errors measure(const Case& c, const Mattes& mattes) {
         e.gradient += std::hypot(static_cast<double>(error[i + 1]) - d,
                                  static_cast<double>(error[i + static_cast<std::size_t>(w)]) - d);
         band += 1;
-        if (f == 0) continue;
+        if (!c.follows[f]) continue;
         e.flicker += std::abs(d - static_cast<double>(before[i]));
         steady += 1;
       }
@@ -103,8 +115,10 @@ Errors measure(const Case& c, const Mattes& mattes) {
           100 * e.flicker / std::max(steady, 1.0), 100 * e.rest / std::max(rest, 1.0)};
 }
 
-Mattes key_ours(const Case& c) {
-  const auto screen = measure_screen(c.samples, {});
+// `normaliser`: instead of the measured one where above 0.
+Mattes key_ours(const Case& c, float normaliser = 0) {
+  auto screen = measure_screen(c.samples, {});
+  if (screen && normaliser > 0) screen->key_normaliser = normaliser;
   Mattes mattes;
   for (const Frame& frame : c.frames) {
     std::vector<float> alpha(frame.y.size());
@@ -155,12 +169,18 @@ Errors key_ffmpeg(const Case& c, const std::string& filter, const testing::TempF
   write_raw(c.frames, raw);
   Errors best;
   best.mean = 1e9;
+  // colorkey works on rgba, chromakey on the film's planes; only so both keep their alpha.
+  const bool planes = filter == "chromakey";
   for (const char* similarity : {"0.03", "0.06", "0.1", "0.15", "0.22", "0.3"})
     for (const char* blend : {"0", "0.08", "0.2"}) {
       const std::string key = filter + "=" + hex_of(c.color) + ":" + similarity + ":" + blend;
-      const std::string command = ffmpeg_of(c.frames[0], raw, key + ",alphaextract,format=gray",
+      const std::string chain = planes ? key + ",format=yuva420p" : "format=rgba," + key;
+      const std::string command = ffmpeg_of(c.frames[0], raw, chain + ",alphaextract,format=gray",
                                             "-f rawvideo '" + gray + "'");
-      if (std::system(command.c_str()) != 0) continue;
+      if (std::system(command.c_str()) != 0) {
+        std::printf("    ffmpeg failed: %s\n", command.c_str());
+        continue;
+      }
       std::ifstream in(gray, std::ios::binary);
       Mattes mattes;
       std::vector<char> bytes(c.frames[0].y.size());
@@ -177,8 +197,41 @@ Errors key_ffmpeg(const Case& c, const std::string& filter, const testing::TempF
   return best;
 }
 
+#ifdef VSPRITE_BENCH_OPENCV
+// What MOG2 calls foreground after it has seen the film's samples twice; its shadows are plate. The
+// best of its thresholds.
+Errors key_mog2(const Case& c) {
+  const auto bgr = [](const Frame& frame) {
+    const Image image = to_image(frame);
+    cv::Mat out(frame.height, frame.width, CV_8UC3);
+    for (std::size_t i = 0; i < frame.y.size(); ++i)
+      for (std::size_t p = 0; p < 3; ++p) out.data[3 * i + p] = image.rgba[4 * i + 2 - p];
+    return out;
+  };
+  cv::setNumThreads(1);
+  Errors best;
+  best.mean = 1e9;
+  for (const double threshold : {9.0, 16.0, 36.0, 80.0}) {
+    const auto model = cv::createBackgroundSubtractorMOG2(500, threshold, true);
+    cv::Mat mask;
+    for (int pass = 0; pass < 2; ++pass)
+      for (const Frame& frame : c.samples) model->apply(bgr(frame), mask);
+    Mattes mattes;
+    for (const Frame& frame : c.frames) {
+      model->apply(bgr(frame), mask, 0);
+      std::vector<float> alpha(frame.y.size());
+      for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = mask.data[i] == 255 ? 1.0f : 0.0f;
+      mattes.push_back(std::move(alpha));
+    }
+    const Errors e = measure(c, mattes);
+    if (e.mean < best.mean) best = e;
+  }
+  return best;
+}
+#endif
+
 // OpenCV's usual recipe, inRange in HSV: hue within `reach` of the screen's, enough saturation and
-// value; a hard mask.
+// value; a hard mask. Written out, so that the row needs no OpenCV.
 Errors key_hsv(const Case& c) {
   const auto hsv = [](double r, double g, double b, double& hue, double& s, double& v) {
     v = std::max({r, g, b});
@@ -218,7 +271,8 @@ Errors key_hsv(const Case& c) {
 Errors key_closed_form(const Case& c, const Mattes& ours, std::size_t every) {
   Case few;
   Mattes mattes;
-  for (std::size_t f = 0; f < c.frames.size(); f += every) {
+  for (std::size_t f = 0; f < c.frames.size(); ++f) {
+    if (f % every > 1) continue;  // pairs of neighbours
     const Frame& frame = c.frames[f];
     const int w = frame.width / 2;
     const int h = frame.height / 2;
@@ -263,6 +317,7 @@ Errors key_closed_form(const Case& c, const Mattes& ours, std::size_t every) {
     few.frames.push_back(frame);
     few.truth.push_back(c.truth[f]);
     few.band.push_back(c.band[f]);
+    few.follows.push_back(f % every == 1 && c.follows[f]);
   }
   return measure(few, mattes);
 }
@@ -277,10 +332,11 @@ void compare(const Case& c, const testing::TempFolder& folder, std::size_t close
   std::printf("  %s\n", c.name.c_str());
   const Mattes mattes = key_ours(c);
   const Errors ours = measure(c, mattes);
+  print("this keyer", ours);
+  if (closed_form_every == 0) return;
   const Errors chroma = key_ffmpeg(c, "chromakey", folder);
   const Errors color = key_ffmpeg(c, "colorkey", folder);
   const Errors hsv = key_hsv(c);
-  print("this keyer", ours);
   print("ffmpeg chromakey", chroma);
   print("ffmpeg colorkey", color);
   print("inRange in HSV", hsv);
@@ -290,12 +346,16 @@ void compare(const Case& c, const testing::TempFolder& folder, std::size_t close
            ours.flicker <= e.flicker;
   };
   for (const Errors* e : {&chroma, &color, &hsv}) against(*e);
-  if (closed_form_every > 0) {
-    Errors closed = key_closed_form(c, mattes, closed_form_every);
-    print("closed form, our seeds", closed);
-    if (closed_form_every > 1) closed.flicker = 1e9;  // its frames are not neighbours
-    against(closed);
-  }
+#ifdef VSPRITE_BENCH_OPENCV
+  const Errors mog2 = key_mog2(c);
+  print("OpenCV MOG2", mog2);
+  against(mog2);
+#else
+  std::printf("    OpenCV MOG2            left out: built without OpenCV\n");
+#endif
+  const Errors closed = key_closed_form(c, mattes, closed_form_every);
+  print("closed form, our seeds", closed);
+  against(closed);
   std::fflush(stdout);
   won += best;
   ++all;
@@ -317,6 +377,7 @@ Case truth_case(int first_run, int runs, int length) {
     if (frame.index % 160 >= length || run % 5 != first_run || run / 5 >= runs) continue;
     if (!bounds.visible || bounds.touches_border) continue;
     film.render(frame.index, t);
+    c.follows.push_back(!c.frames.empty() && c.frames.back().index + 1 == frame.index);
     c.truth.push_back(t.alpha);
     c.band.push_back(band_of(t.alpha, t.width, t.height));
     c.frames.push_back(frame);
@@ -349,6 +410,7 @@ Case composite_case(const testing::Condition& condition, const std::vector<CutOu
     // Six runs of four neighbours.
     if (frame.index % 10 >= 4) continue;
     const CutOut& cut = cuts[static_cast<std::size_t>(frame.index)];
+    c.follows.push_back(!c.frames.empty() && c.frames.back().index + 1 == frame.index);
     c.frames.push_back(frame);
     c.truth.push_back(cut.alpha);
     c.band.push_back(band_of(cut.alpha, cut.width, cut.height));
@@ -376,14 +438,104 @@ std::vector<CutOut> fur_cuts(int count) {
   return cuts;
 }
 
-void run_pool(const char* title, const std::vector<CutOut>& cuts,
-              const testing::TempFolder& folder) {
+// The screens whose numbers were given, else all.
+std::set<std::string> screens;
+bool wanted(const testing::Condition& condition) {
+  const auto number = &condition - testing::conditions().data();
+  return screens.empty() || screens.count(std::to_string(number)) > 0;
+}
+
+void run_pool(const char* title, const std::vector<CutOut>& cuts, const testing::TempFolder& folder,
+              std::size_t closed_form_every) {
   std::printf("%s: mean |e|, root mean square, gradient, flicker (percent, within %d px)\n", title,
               kBand);
   int won = 0, all = 0;
   for (const testing::Condition& condition : testing::conditions())
-    compare(composite_case(condition, cuts, folder), folder, 12, won, all);
-  std::printf("  lowest of all four errors on %d of %d\n", won, all);
+    if (wanted(condition))
+      compare(composite_case(condition, cuts, folder), folder, closed_form_every, won, all);
+  if (closed_form_every > 0) std::printf("  lowest of all four errors on %d of %d\n", won, all);
+}
+
+// The same grey over the same screen may be an opaque grey part or a translucent coloured one. What
+// each reading costs: key strength over the film's own (translucent), as it is (opaque), between.
+void run_decision(const testing::TempFolder& folder) {
+  std::printf(
+      "grey is opaque (1) or translucent (the film's strength): mean |e| of each reading\n");
+  const auto row = [](const Case& c) {
+    const auto screen = measure_screen(c.samples, {});
+    if (!screen || screen->key < 0) return;
+    const float full = screen->key_normaliser;
+    std::printf("    %-28s strength %.2f:", c.name.c_str(), static_cast<double>(full));
+    for (const float share : {0.0f, 0.5f, 1.0f}) {
+      const float n = 1 + share * (full - 1);
+      std::printf("  %6.2f at %.2f", measure(c, key_ours(c, n)).mean, static_cast<double>(n));
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  };
+  row(truth_case(0, 6, 4));
+  std::vector<CutOut> mice;
+  for (int k = 0; k < 60; ++k) mice.push_back(testing::grey_mouse(k, 640, 480));
+  const auto fish = fish_cuts(60);
+  for (const testing::Condition& condition : testing::conditions()) {
+    if (!wanted(condition)) continue;
+    for (const bool is_fish : {true, false}) {
+      Case c = composite_case(condition, is_fish ? fish : mice, folder);
+      c.name = (is_fish ? "fish, " : "grey mouse, ") + c.name;
+      row(c);
+    }
+  }
+}
+
+// A matte at a place between pixels.
+float sampled(const std::vector<float>& matte, int w, int h, double x, double y) {
+  const int left = static_cast<int>(std::floor(x));
+  const int top = static_cast<int>(std::floor(y));
+  if (left < 0 || top < 0 || left + 1 >= w || top + 1 >= h) return 0;
+  const auto i = static_cast<std::size_t>(top * w + left);
+  const auto u = static_cast<float>(x - left);
+  const auto v = static_cast<float>(y - top);
+  const auto below = i + static_cast<std::size_t>(w);
+  return (1 - v) * ((1 - u) * matte[i] + u * matte[i + 1]) +
+         v * ((1 - u) * matte[below] + u * matte[below + 1]);
+}
+
+// Would the neighbours in time help? Each matte mixed with those before and after it, moved along
+// with the subject's centroid, by more and more.
+void run_temporal() {
+  const Case c = truth_case(0, 6, 4);
+  const Mattes plain = key_ours(c);
+  const int w = c.frames[0].width;
+  const int h = c.frames[0].height;
+  std::vector<std::array<double, 2>> centre;
+  for (const auto& matte : plain) {
+    double sum = 1e-9, x_sum = 0, y_sum = 0;
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const auto a = static_cast<double>(matte[static_cast<std::size_t>(y * w + x)]);
+        sum += a, x_sum += a * x, y_sum += a * y;
+      }
+    centre.push_back({x_sum / sum, y_sum / sum});
+  }
+  std::printf("the bundled film, mattes mixed with their neighbours in time\n");
+  for (const float share : {0.0f, 0.1f, 0.2f, 0.3f}) {
+    Mattes mixed = plain;
+    for (std::size_t f = 0; f < mixed.size(); ++f)
+      for (const std::size_t other : {f - 1, f + 1}) {
+        if (other >= mixed.size() || !c.follows[std::max(f, other)]) continue;
+        const double dx = centre[other][0] - centre[f][0];
+        const double dy = centre[other][1] - centre[f][1];
+        for (int y = 0; y < h; ++y)
+          for (int x = 0; x < w; ++x) {
+            const auto i = static_cast<std::size_t>(y * w + x);
+            if (!c.band[f][i]) continue;
+            mixed[f][i] += share * (sampled(plain[other], w, h, x + dx, y + dy) - plain[f][i]);
+          }
+      }
+    char name[32];
+    std::snprintf(name, sizeof name, "share %.1f each", static_cast<double>(share));
+    print(name, measure(c, mixed));
+  }
 }
 
 // Planes stretched to 1080p, nearest.
@@ -464,15 +616,22 @@ void run_speed(const testing::TempFolder& folder) {
 
 int main(int argc, char** argv) {
   std::set<std::string> parts(argv + 1, argv + argc);
+  for (const std::string& part : parts)
+    if (part.find_first_not_of("0123456789") == std::string::npos) screens.insert(part);
+  for (const std::string& number : screens) parts.erase(number);
   if (parts.empty()) parts = {"speed", "truth", "chosen", "unseen"};
+  const bool alone = parts.count("ours") > 0;
   const testing::TempFolder folder;
   if (parts.count("speed")) run_speed(folder);
   if (parts.count("truth")) {
     std::printf("mean |e|, root mean square, gradient, flicker (percent, within %d px)\n", kBand);
     int won = 0, all = 0;
-    compare(truth_case(0, 6, 4), folder, 3, won, all);
+    compare(truth_case(0, 6, 4), folder, alone ? 0 : 4, won, all);
   }
-  if (parts.count("chosen")) run_pool("chosen with: the fish", fish_cuts(60), folder);
-  if (parts.count("unseen")) run_pool("never seen: fur and a veil", fur_cuts(60), folder);
+  if (parts.count("temporal")) run_temporal();
+  if (parts.count("decision")) run_decision(folder);
+  if (parts.count("chosen"))
+    run_pool("chosen with: the fish", fish_cuts(60), folder, alone ? 0 : 12);
+  if (parts.count("unseen")) run_pool("never seen: fur and a veil", fur_cuts(60), folder, 12);
   return 0;
 }

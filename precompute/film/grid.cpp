@@ -12,7 +12,7 @@
 
 namespace vsprite::detail {
 
-void make_grid(const Frame& frame, const Window& window, Grid& grid) {
+void make_grid(const Frame& frame, const Window& window, std::span<const Span> spans, Grid& grid) {
   grid.left = window.left;
   grid.top = window.top;
   grid.width = window.width;
@@ -23,6 +23,8 @@ void make_grid(const Frame& frame, const Window& window, Grid& grid) {
   const auto cell_stride = static_cast<std::size_t>(frame.cell_width());
   const int whole = std::min(window.width, frame.width / 2 - window.left);
   for (int y = 0; y < grid.height; ++y) {
+    const Span span = spans[static_cast<std::size_t>(y)];
+    const auto skipped = static_cast<std::size_t>(span.begin);
     const int pixel_row = 2 * (window.top + y);
     const std::uint8_t* top = frame.y.data() + static_cast<std::size_t>(pixel_row) * stride +
                               2 * static_cast<std::size_t>(window.left);
@@ -31,9 +33,10 @@ void make_grid(const Frame& frame, const Window& window, Grid& grid) {
                              static_cast<std::size_t>(window.left);
     const std::size_t to = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width);
     const auto out = [&](std::size_t p) { return grid.plane[p].data() + to; };
-    lanes().sum_cells(m, top, low, frame.cb.data() + from, frame.cr.data() + from, whole, out(0),
-                      out(1), out(2));
-    for (int x = whole; x < window.width; ++x) {
+    lanes().sum_cells(m, top + 2 * skipped, low + 2 * skipped, frame.cb.data() + from + skipped,
+                      frame.cr.data() + from + skipped, std::min(whole, span.end) - span.begin,
+                      out(0) + skipped, out(1) + skipped, out(2) + skipped);
+    for (int x = std::max(whole, span.begin); x < span.end; ++x) {
       const auto i = static_cast<std::size_t>(x);
       const auto rgb =
           m.sums(2 * (top[2 * x] + low[2 * x]), frame.cb[from + i], frame.cr[from + i], 4);
@@ -43,49 +46,118 @@ void make_grid(const Frame& frame, const Window& window, Grid& grid) {
 }
 
 void make_grid(const Frame& frame, Grid& grid) {
-  make_grid(frame, {0, 0, frame.cell_width(), frame.cell_height()}, grid);
+  const Window all{0, 0, frame.cell_width(), frame.cell_height()};
+  const std::vector<Span> spans(static_cast<std::size_t>(all.height), Span{0, all.width});
+  make_grid(frame, all, spans, grid);
 }
 
 namespace {
 
-// Columns: each row with those up to `radius` above and below.
-void spread_columns(const Mask& in, int radius, bool larger, Mask& out) {
-  const auto width = static_cast<std::size_t>(in.width);
-  for (int y = 0; y < in.height; ++y) {
-    std::uint8_t* row = out.row(y);
-    std::memcpy(row, in.row(y), width);
-    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, in.height - 1); ++v)
-      if (v != y) lanes().spread_into(in.row(v), width, larger, row);
+// A mask with 64 cells a word, or its complement; cells behind the last are 0.
+struct Bits {
+  int width, height;
+  std::size_t words;  // a row
+  std::vector<std::uint64_t> in, next;
+
+  std::uint64_t* row(std::vector<std::uint64_t>& of, int y) const {
+    return of.data() + static_cast<std::size_t>(y) * words;
+  }
+};
+
+constexpr std::uint64_t kOnes = 0x0101010101010101u;
+
+// Eight cells at a time: the product moves the lowest bit of byte i to bit 56 + i.
+Bits pack(const Mask& mask, bool complement) {
+  Bits bits{mask.width, mask.height, (static_cast<std::size_t>(mask.width) + 63) / 64, {}, {}};
+  bits.in.assign(bits.words * static_cast<std::size_t>(mask.height), 0);
+  const std::uint64_t flip = complement ? kOnes : 0;
+  for (int y = 0; y < mask.height; ++y) {
+    const std::uint8_t* row = mask.row(y);
+    std::uint64_t* out = bits.row(bits.in, y);
+    int x = 0;
+    for (; x + 8 <= mask.width; x += 8) {
+      std::uint64_t cells = 0;
+      std::memcpy(&cells, row + x, 8);
+      out[x / 64] |= (((cells ^ flip) * 0x0102040810204080u) >> 56) << (x % 64);
+    }
+    for (; x < mask.width; ++x)
+      out[x / 64] |= static_cast<std::uint64_t>((row[x] != 0) != complement) << (x % 64);
+  }
+  bits.next.resize(bits.in.size());
+  return bits;
+}
+
+Mask unpack(const Bits& bits, bool complement) {
+  Mask mask(bits.width, bits.height);
+  const std::uint64_t flip = complement ? kOnes : 0;
+  for (int y = 0; y < mask.height; ++y) {
+    const std::uint64_t* in = bits.in.data() + static_cast<std::size_t>(y) * bits.words;
+    std::uint8_t* row = mask.row(y);
+    int x = 0;
+    for (; x + 8 <= mask.width; x += 8) {
+      // Bit i of the byte stays alone in byte i, then carries into that byte's highest bit.
+      const std::uint64_t byte = (in[x / 64] >> (x % 64)) & 255;
+      const std::uint64_t apart = (byte * kOnes) & 0x8040201008040201u;
+      const std::uint64_t cells = (((apart + 0x7F7F7F7F7F7F7F7Fu) >> 7) & kOnes) ^ flip;
+      std::memcpy(row + x, &cells, 8);
+    }
+    for (; x < mask.width; ++x)
+      row[x] = static_cast<std::uint8_t>(((in[x / 64] >> (x % 64)) & 1) ^ (complement ? 1 : 0));
+  }
+  return mask;
+}
+
+// Each cell with its neighbours to the left and right.
+void widen_row(const std::uint64_t* in, std::size_t words, std::uint64_t* out) {
+  for (std::size_t k = 0; k < words; ++k) {
+    const std::uint64_t before = k > 0 ? in[k - 1] >> 63 : 0;
+    const std::uint64_t behind = k + 1 < words ? in[k + 1] << 63 : 0;
+    out[k] = in[k] | in[k] << 1 | in[k] >> 1 | before | behind;
   }
 }
 
-Mask spread(const Mask& mask, int radius, bool larger) {
-  Mask rows(mask.width, mask.height);
-  for (int y = 0; y < mask.height; ++y)
-    lanes().spread_row(mask.row(y), mask.width, radius, larger, rows.row(y));
-  Mask both(mask.width, mask.height);
-  spread_columns(rows, radius, larger, both);
-  return both;
+void add_rows(const std::uint64_t* in, std::size_t words, std::uint64_t* out) {
+  for (std::size_t k = 0; k < words; ++k) out[k] |= in[k];
+}
+
+// Squares of 2 radius + 1.
+void grow_square(Bits& bits, int radius) {
+  for (int k = 0; k < radius; ++k) {
+    for (int y = 0; y < bits.height; ++y)
+      widen_row(bits.row(bits.in, y), bits.words, bits.row(bits.next, y));
+    std::swap(bits.in, bits.next);
+  }
+  if (radius == 0) return;
+  bits.next = bits.in;
+  for (int y = 0; y < bits.height; ++y)
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, bits.height - 1); ++v)
+      if (v != y) add_rows(bits.row(bits.in, v), bits.words, bits.row(bits.next, y));
+  std::swap(bits.in, bits.next);
 }
 
 // One step to the four neighbours.
-Mask spread_cross(const Mask& mask, bool larger) {
-  Mask out(mask.width, mask.height);
-  const auto width = static_cast<std::size_t>(mask.width);
-  for (int y = 0; y < mask.height; ++y) {
-    lanes().spread_row(mask.row(y), mask.width, 1, larger, out.row(y));
-    if (y > 0) lanes().spread_into(mask.row(y - 1), width, larger, out.row(y));
-    if (y + 1 < mask.height) lanes().spread_into(mask.row(y + 1), width, larger, out.row(y));
+void grow_cross(Bits& bits) {
+  for (int y = 0; y < bits.height; ++y) {
+    std::uint64_t* out = bits.row(bits.next, y);
+    widen_row(bits.row(bits.in, y), bits.words, out);
+    if (y > 0) add_rows(bits.row(bits.in, y - 1), bits.words, out);
+    if (y + 1 < bits.height) add_rows(bits.row(bits.in, y + 1), bits.words, out);
   }
-  return out;
+  std::swap(bits.in, bits.next);
+}
+
+// What is lost by shrinking is what the rest gains: outside counts as in.
+Mask spread(const Mask& mask, int square, int crosses, bool larger) {
+  Bits bits = pack(mask, !larger);
+  grow_square(bits, square);
+  for (int k = 0; k < crosses; ++k) grow_cross(bits);
+  return unpack(bits, !larger);
 }
 
 // Squares and crosses in the proportion that makes an octagon.
 Mask spread_disc(const Mask& mask, int radius, bool larger) {
   const int square = (5 * radius + 6) / 12;
-  Mask out = spread(mask, square, larger);
-  for (int k = square; k < radius; ++k) out = spread_cross(out, larger);
-  return out;
+  return spread(mask, square, radius - square, larger);
 }
 
 // Rows: a running sum in double, so that what leaves the box leaves nothing behind; small boxes
@@ -151,8 +223,8 @@ void blur_columns(const float* in, float* out, int width, int height, int radius
 
 }  // namespace
 
-Mask dilate(const Mask& mask, int radius) { return spread(mask, radius, true); }
-Mask erode(const Mask& mask, int radius) { return spread(mask, radius, false); }
+Mask dilate(const Mask& mask, int radius) { return spread(mask, radius, 0, true); }
+Mask erode(const Mask& mask, int radius) { return spread(mask, radius, 0, false); }
 Mask dilate_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, true); }
 Mask erode_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, false); }
 
@@ -162,6 +234,25 @@ void blur(std::vector<float>& plane, int width, int height, int radius, int pass
   for (int pass = 0; pass < passes; ++pass) {
     blur_rows(plane.data(), scratch.data(), width, height, radius);
     blur_columns(scratch.data(), plane.data(), width, height, radius);
+  }
+}
+
+void spans_of(const Mask& mask, int reach, std::vector<Span>& spans) {
+  spans.assign(static_cast<std::size_t>(mask.height), {});
+  for (int y = 0; y < mask.height; ++y) {
+    const std::uint8_t* row = mask.row(y);
+    const auto width = static_cast<std::size_t>(mask.width);
+    const void* first = std::memchr(row, 1, width);
+    if (!first) continue;
+    const int begin = static_cast<int>(static_cast<const std::uint8_t*>(first) - row);
+    int end = mask.width;
+    while (!row[end - 1]) --end;
+    const Span wide{std::max(begin - reach, 0), std::min(end + reach, mask.width)};
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, mask.height - 1); ++v) {
+      Span& span = spans[static_cast<std::size_t>(v)];
+      span =
+          span.size() ? Span{std::min(span.begin, wide.begin), std::max(span.end, wide.end)} : wide;
+    }
   }
 }
 

@@ -23,6 +23,12 @@ struct Window {
   }
 };
 
+/// A run of cells of one row, [begin, end); empty where end <= begin.
+struct Span {
+  int begin = 0, end = 0;
+  int size() const { return end > begin ? end - begin : 0; }
+};
+
 /// Sums of the four encoded pixels of a cell, 0..1020, one plane a channel: R, G, B. At an odd
 /// right or lower edge the last pixel counts twice.
 struct Grid {
@@ -35,8 +41,8 @@ struct Grid {
   }
 };
 
-/// Fills `grid` with a part of a frame, or with all of it.
-void make_grid(const Frame& frame, const Window& window, Grid& grid);
+/// Fills `grid` with the `spans` (one a row) of a part of a frame, or with a whole frame.
+void make_grid(const Frame& frame, const Window& window, std::span<const Span> spans, Grid& grid);
 void make_grid(const Frame& frame, Grid& grid);
 
 /// A map of cells, 1 = in, row-major, of the given width and height.
@@ -66,6 +72,9 @@ Mask erode_disc(const Mask& mask, int radius);
 /// room.
 void blur(std::vector<float>& plane, int width, int height, int radius, int passes,
           std::vector<float>& scratch);
+
+/// The run that holds all of each row within `reach` cells of it, above and below too.
+void spans_of(const Mask& mask, int reach, std::vector<Span>& spans);
 
 /// Labels of the 8-connected parts of `mask`, 1.. in the order of their first cell; 0 = out.
 /// Returns their number.

@@ -174,16 +174,6 @@ void spread_into(const std::uint8_t* __restrict in, std::size_t n, bool larger,
     for (std::size_t i = 0; i < n; ++i) inout[i] = inout[i] < in[i] ? inout[i] : in[i];
 }
 
-void spread_row(const std::uint8_t* __restrict in, int n, int radius, bool larger,
-                std::uint8_t* __restrict out) {
-  std::copy(in, in + n, out);
-  for (int k = 1; k <= std::min(radius, n - 1); ++k) {
-    const auto rest = static_cast<std::size_t>(n - k);
-    spread_into(in + k, rest, larger, out);
-    spread_into(in, rest, larger, out + k);
-  }
-}
-
 void blur3(const float* __restrict in, int width, int height, float* __restrict rows,
            float* __restrict out) {
   const auto w = static_cast<std::size_t>(width);
@@ -275,6 +265,22 @@ void distance(ConstPlanes frame, ConstPlanes plate, std::size_t n, float* __rest
     const float g = c1[i] - b1[i];
     const float b = c2[i] - b2[i];
     out[i] = std::sqrt(r * r + g * g + b * b);
+  }
+}
+
+void score(const ScoreRow& row, std::size_t n, std::uint8_t* __restrict sure,
+           std::uint8_t* __restrict likely) {
+  const float* __restrict key = row.key;
+  const float* __restrict bound = row.bound;
+  const std::uint8_t* __restrict region = row.region;
+  const float inverse = row.inverse;
+  const float most = row.sure;
+  const float enough = row.likely;
+  for (std::size_t i = 0; i < n; ++i) {
+    const float s = larger_of(key[i] * inverse, 1.15f * bound[i]);
+    const int in = region[i];
+    sure[i] = static_cast<std::uint8_t>(s > most ? in : 0);
+    likely[i] = static_cast<std::uint8_t>(s > enough ? in : 0);
   }
 }
 
@@ -413,8 +419,26 @@ void project_block(const ProjectionRow& row, float spill, int at) {
   }
 }
 
-void project(const ProjectionRow& row, float spill, int n) {
-  for (int at = 0; at < n;) {
+bool modes(const std::uint8_t* __restrict seeds, const std::uint8_t* __restrict region, bool means,
+           std::size_t n, std::uint8_t* __restrict mode, float* __restrict alpha) {
+  const int known = means ? 1 : 0;
+  int most = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int open = region[i] ? 2 : 0;
+    const int m = seeds[i] ? known : open;
+    mode[i] = static_cast<std::uint8_t>(m);
+    most |= m;
+  }
+  for (std::size_t i = 0; i < n; ++i) alpha[i] = seeds[i] ? 1.0f : 0.0f;
+  return most != 0;
+}
+
+void set_sure(const std::uint8_t* __restrict seeds, std::size_t n, float* __restrict values) {
+  for (std::size_t i = 0; i < n; ++i) values[i] = seeds[i] ? 1.0f : values[i];
+}
+
+void project(const ProjectionRow& row, float spill, int begin, int end, int n) {
+  for (int at = begin; at < end;) {
     const int first = std::max(std::min(at, n - kBlock), 0);
     std::uint8_t most = 0;
     for (int k = 0; k < kBlock; ++k) most = std::max(most, row.mode[first + k]);
@@ -466,6 +490,15 @@ void gain(const float* __restrict a, const float* __restrict g, const float* __r
     out[i] = (ag[i] - a[i] * g[i]) / (larger_of(gg[i] - g[i] * g[i], 0) + kRidge);
 }
 
+void mark_inner(const std::uint8_t* __restrict some, const std::uint8_t* __restrict full,
+                std::size_t n, std::uint8_t* __restrict inner, float* __restrict gain_of) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const int in = full[i];
+    inner[i] = static_cast<std::uint8_t>(some[i] ? in : 2);
+  }
+  for (std::size_t i = 0; i < n; ++i) gain_of[i] = inner[i] ? 0.0f : gain_of[i];
+}
+
 void multiply(const float* __restrict a, const float* __restrict b, std::size_t n,
               float* __restrict out) {
   for (std::size_t i = 0; i < n; ++i) out[i] = a[i] * b[i];
@@ -486,6 +519,14 @@ void raise_alpha(const AlphaRow& row, int n, std::uint8_t* __restrict out) {
     clear = clear < low ? 0.0f : clear;
     clear = clear > high ? 1.0f : clear;
     out[i] = static_cast<std::uint8_t>(static_cast<int>(clear * 255 + 0.5f));
+  }
+}
+
+void settle(const std::uint8_t* __restrict inner, int n, std::uint8_t* __restrict alpha) {
+  for (int i = 0; i < 2 * n; ++i) {
+    const int kind = inner[i / 2];
+    const int as_is = alpha[i];
+    alpha[i] = static_cast<std::uint8_t>(kind == 0 ? as_is : (kind & 1 ? 255 : 0));
   }
 }
 
@@ -603,12 +644,14 @@ std::uint32_t difference(const std::uint8_t* __restrict a, const std::uint8_t* _
 }  // namespace
 
 const Lanes* get_lanes() {
-  static constexpr Lanes kLanes = {
-      count_different, sum_cells,    contrast,    look_up,    shift,       forgive_shadows,
-      above,           spread_row,   spread_into, blur3,      gamut_bound, key_share,
-      distance,        moments,      mix,         double_row, project,     weigh_rim,
-      detail,          halve,        gain,        multiply,   raise_alpha, own_color,
-      encode_weighted, paint_filmed, paint_own,   difference};
+  static constexpr Lanes kLanes = {count_different, sum_cells,       contrast,  look_up,
+                                   shift,           forgive_shadows, above,     spread_into,
+                                   blur3,           gamut_bound,     key_share, distance,
+                                   score,           moments,         mix,       double_row,
+                                   project,         modes,           set_sure,  weigh_rim,
+                                   detail,          halve,           gain,      mark_inner,
+                                   multiply,        raise_alpha,     settle,    own_color,
+                                   encode_weighted, paint_filmed,    paint_own, difference};
   return &kLanes;
 }
 

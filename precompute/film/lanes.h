@@ -56,6 +56,13 @@ struct ProjectionRow {
   float* residual;  ///< may be null
 };
 
+/// Evidence of coverage: the larger of key times `inverse` and 1.15 times the bound, in the region.
+struct ScoreRow {
+  const float *key, *bound;
+  const std::uint8_t* region;
+  float inverse, sure, likely;
+};
+
 /// One row of pixels, all bilinear from cells but `detail`: alpha + gain (detail - guide).
 struct AlphaRow {
   const float *alpha, *gain, *guide, *detail;
@@ -96,8 +103,6 @@ struct Lanes {
   void (*forgive_shadows)(ConstPlanes frame, ConstPlanes plate, std::size_t n, float* contrast);
   /// out = 1 where value > limit, else 0.
   void (*above)(const float* values, float limit, std::size_t n, std::uint8_t* out);
-  /// out = the larger (the lesser) of each byte and those up to `radius` before and behind it.
-  void (*spread_row)(const std::uint8_t* in, int n, int radius, bool larger, std::uint8_t* out);
   /// inout = the larger (the lesser) of two.
   void (*spread_into)(const std::uint8_t* in, std::size_t n, bool larger, std::uint8_t* inout);
   /// Means over 3 x 3, outside is 0. `scratch` and `out` are as large as `in`.
@@ -109,6 +114,8 @@ struct Lanes {
   void (*key_share)(ConstPlanes frame, ConstPlanes plate, KeyShape shape, std::size_t n,
                     float* share);
   void (*distance)(ConstPlanes frame, ConstPlanes plate, std::size_t n, float* out);
+  /// 1 where the score is above `sure`, above `likely`.
+  void (*score)(const ScoreRow& row, std::size_t n, std::uint8_t* sure, std::uint8_t* likely);
   /// Means over squares of 2 x 2 cells of weight times moment; `n` cells of two rows (the second
   /// may be absent: null).
   void (*moments)(const float* top_weight, const float* low_weight, ConstPlanes top,
@@ -117,7 +124,14 @@ struct Lanes {
   void (*mix)(const float* first, float a, const float* second, float b, std::size_t n, float* out);
   /// Bilinear doubling of a row of n: 2 n out.
   void (*double_row)(const float* in, int n, float* out);
-  void (*project)(const ProjectionRow& row, float spill, int n);
+  /// The cells of a row from `begin` to `end`; blocks of lanes reach over them inside 0..n.
+  void (*project)(const ProjectionRow& row, float spill, int begin, int end, int n);
+  /// Modes of a row (above): seeds are known, the rest of the region is not; alpha of seeds is 1,
+  /// else 0. False where nothing is wanted.
+  bool (*modes)(const std::uint8_t* seeds, const std::uint8_t* region, bool means, std::size_t n,
+                std::uint8_t* mode, float* alpha);
+  /// values = 1 where `seeds`.
+  void (*set_sure)(const std::uint8_t* seeds, std::size_t n, float* values);
   /// The weight of a cell's colour in its neighbourhood by how opaque the rim is, and that colour.
   void (*weigh_rim)(const std::uint8_t* seeds, const float* soft, const float* alpha,
                     ConstPlanes frame, ConstPlanes plate, std::size_t n, float* weight,
@@ -130,8 +144,13 @@ struct Lanes {
   /// cov(a, g) / (var(g) + ridge) from means over 3 x 3.
   void (*gain)(const float* a, const float* g, const float* ag, const float* gg, std::size_t n,
                float* out);
+  /// inner = 2 where not `some`, else `full`; the gain of inner cells is 0.
+  void (*inner)(const std::uint8_t* some, const std::uint8_t* full, std::size_t n,
+                std::uint8_t* inner, float* gain);
   void (*multiply)(const float* a, const float* b, std::size_t n, float* out);
   void (*raise_alpha)(const AlphaRow& row, int n, std::uint8_t* out);
+  /// Two pixels a cell: 255 where it is inner (1), 0 where it is outer (2).
+  void (*settle)(const std::uint8_t* inner, int n, std::uint8_t* alpha);
   /// The subject's own linear colour: unmixed where there is enough of it, else its
   /// neighbourhood's; the screen's hue is taken out as far as the neighbourhood has none of it.
   void (*own_color)(const float* alpha, ConstPlanes frame, ConstPlanes plate, ConstPlanes mean,

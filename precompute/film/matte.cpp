@@ -25,8 +25,10 @@ using detail::lanes;
 using detail::Mask;
 using detail::Patch;
 using detail::Silhouette;
+using detail::Span;
 
 constexpr int kMostBlobs = 32;
+constexpr int kShadow = 6;     // cells around the body where its contact shadow and smear lie
 constexpr int kUntouched = 6;  // cells: deeper in the picture is taken as it is
 
 }  // namespace
@@ -42,6 +44,7 @@ struct Keyer::Impl {
   // Maps of cells.
   std::vector<float> gain, guide, own[3];
   std::vector<std::uint8_t> inner;      // 1: all opaque around, 2: all clear, else 0
+  Mask shaded;                          // where a standing plate may lie in the subject's shadow
   std::vector<float> product, scratch;  // working room
   // Maps of pixels over the patch, `stride` = 2 x patch.width apart.
   int left = 0, top = 0, width = 0, height = 0;  // film pixels
@@ -96,7 +99,8 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
       const std::size_t from =
           static_cast<std::size_t>(patch.top + y / 2) * static_cast<std::size_t>(w) +
           static_cast<std::size_t>(patch.left);
-      for (int x = 0; x < patch.width; ++x) {
+      const Span span = patch.spans[static_cast<std::size_t>(y / 2)];
+      for (int x = span.begin; x < span.end; ++x) {
         const float u = static_cast<float>(step * (patch.left + x) - 1);
         const auto at = [u](detail::RowTerms t) { return t.a + u * (t.b + u * t.c); };
         drift[static_cast<std::size_t>(x)] =
@@ -104,16 +108,20 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
             (weights.red * at(red) + weights.green * at(green) + weights.blue * at(blue));
       }
     }
+    const Span span = patch.spans[static_cast<std::size_t>(y / 2)];
+    if (span.size() == 0) continue;
+    const auto skipped = static_cast<std::size_t>(span.begin);
     const std::size_t from =
         static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
-        static_cast<std::size_t>(left);
+        static_cast<std::size_t>(left) + 2 * skipped;
     float* out = detail.data() + static_cast<std::size_t>(y) * stride;
     float* below = plate.data() + static_cast<std::size_t>(y) * stride;
-    lanes().detail(frame.y.data() + from, light, screen->luma.data() + from, drift.data(), width,
-                   out, below);
-    for (auto x = static_cast<std::size_t>(width); x < stride; ++x) {
-      out[x] = out[x - 1];
-      below[x] = below[x - 1];
+    lanes().detail(frame.y.data() + from, light, screen->luma.data() + from, drift.data() + skipped,
+                   std::min(2 * span.end, width) - 2 * span.begin, out + 2 * skipped,
+                   below + 2 * skipped);
+    if (2 * span.end > width) {
+      out[width] = out[width - 1];
+      below[width] = below[width - 1];
     }
   }
   for (auto y = static_cast<std::size_t>(height); y < rows; ++y)
@@ -124,14 +132,18 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
 // g_h: the mean of g over a cell; a: how much of g is alpha's own detail.
 void Keyer::Impl::measure_guide() {
   const std::size_t n = patch.cells();
-  guide.resize(n);
+  guide.assign(n, 0);
   gain.resize(n);
   product.resize(n);
   scratch.resize(n);
   for (int y = 0; y < patch.height; ++y) {
-    const float* first = detail.data() + 2 * static_cast<std::size_t>(y) * stride;
-    lanes().halve(first, first + stride, patch.width,
-                  guide.data() + static_cast<std::ptrdiff_t>(y) * patch.width);
+    const Span span = patch.spans[static_cast<std::size_t>(y)];
+    if (span.size() == 0) continue;
+    const float* first = detail.data() +
+                         2 * static_cast<std::ptrdiff_t>(y) * static_cast<std::ptrdiff_t>(stride) +
+                         2 * span.begin;
+    lanes().halve(first, first + stride, span.size(),
+                  guide.data() + static_cast<std::ptrdiff_t>(y) * patch.width + span.begin);
   }
   std::vector<float>(&mean)[3] = patch.color;  // its own use is over
   const auto blur = [&](const std::vector<float>& in, std::vector<float>& out) {
@@ -153,24 +165,31 @@ void Keyer::Impl::mark_inner() {
   Mask some(patch.width, patch.height);
   Mask full(patch.width, patch.height);
   lanes().above(patch.alpha.data(), 0, n, some.in.data());
-  for (std::size_t i = 0; i < n; ++i) full.in[i] = patch.alpha[i] >= 1 ? 1 : 0;
+  lanes().above(patch.alpha.data(), 0.99999994f, n, full.in.data());  // the float below 1
   some = dilate(some, 1);
   full = erode(full, 1);
   inner.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    inner[i] = some.in[i] ? full.in[i] : std::uint8_t{2};
-    gain[i] = inner[i] ? 0.0f : gain[i];
-  }
+  if (screen->kind == KeyKind::Plate) shaded = dilate(patch.seeds, kShadow);
+  lanes().inner(some.in.data(), full.in.data(), n, inner.data(), gain.data());
 }
 
-// The two cells that a row of pixels lies between, mixed and then doubled along the row.
-void up_row(const std::vector<float>& plane, int width, int height, int y, float* row, float* out) {
+// The two cells that a row of pixels lies between, mixed and then doubled along a span of it.
+void up_row(const std::vector<float>& plane, int width, int height, Span span, int y, float* row,
+            float* out) {
   const int cell = y / 2;
   const int second = std::clamp(y % 2 ? cell + 1 : cell - 1, 0, height - 1);
-  lanes().mix(plane.data() + static_cast<std::ptrdiff_t>(cell) * width, 0.75f,
-              plane.data() + static_cast<std::ptrdiff_t>(second) * width, 0.25f,
-              static_cast<std::size_t>(width), row);
-  lanes().double_row(row, width, out);
+  lanes().mix(plane.data() + static_cast<std::ptrdiff_t>(cell) * width + span.begin, 0.75f,
+              plane.data() + static_cast<std::ptrdiff_t>(second) * width + span.begin, 0.25f,
+              static_cast<std::size_t>(span.size()), row);
+  lanes().double_row(row, span.size(), out + 2 * span.begin);
+}
+
+// Shadow covers less than a third of the light; above 0.6 alpha stays, between it is stretched.
+std::uint8_t out_of_shade(std::uint8_t alpha) {
+  constexpr int kNone = 77;
+  constexpr int kAll = 153;
+  if (alpha >= kAll) return alpha;
+  return static_cast<std::uint8_t>(alpha <= kNone ? 0 : (alpha - kNone) * kAll / (kAll - kNone));
 }
 
 void Keyer::Impl::raise_alpha() {
@@ -178,46 +197,58 @@ void Keyer::Impl::raise_alpha() {
   std::vector<float> rows(4 * stride);
   for (int y = 0; y < height; ++y) {
     const std::uint8_t* kinds = inner.data() + static_cast<std::ptrdiff_t>(y / 2) * patch.width;
-    const std::uint8_t* end = kinds + patch.width;
-    if (std::find_if(kinds, end, [](std::uint8_t k) { return k != 2; }) == end) continue;
+    const Span span = patch.spans[static_cast<std::size_t>(y / 2)];
+    if (span.size() == 0) continue;
     float* up = rows.data() + stride;
-    up_row(patch.alpha, patch.width, patch.height, y, rows.data(), up);
-    up_row(gain, patch.width, patch.height, y, rows.data(), up + stride);
-    up_row(guide, patch.width, patch.height, y, rows.data(), up + 2 * stride);
+    up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
+    up_row(gain, patch.width, patch.height, span, y, rows.data(), up + stride);
+    up_row(guide, patch.width, patch.height, span, y, rows.data(), up + 2 * stride);
+    up += 2 * span.begin;
     const std::size_t at = static_cast<std::size_t>(y) * stride;
+    const std::size_t first = at + 2 * static_cast<std::size_t>(span.begin);
     // Before a plain plate shadows and the codec's smear look like thin subject: they are taken
     // off.
     const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
-    lanes().raise_alpha({up, up + stride, up + 2 * stride, detail.data() + at, shade,
+    lanes().raise_alpha({up, up + stride, up + 2 * stride, detail.data() + first, shade,
                          config.clip_low, config.clip_high},
-                        static_cast<int>(stride), alpha.data() + at);
+                        2 * span.size(), alpha.data() + first);
     // The neighbours' gain reaches half a cell into what is all opaque or all clear.
-    for (int x = 0; x < patch.width; ++x) {
-      if (!kinds[x]) continue;
-      alpha[at + 2 * static_cast<std::size_t>(x)] = kinds[x] == 1 ? 255 : 0;
-      alpha[at + 2 * static_cast<std::size_t>(x) + 1] = kinds[x] == 1 ? 255 : 0;
-    }
+    lanes().settle(kinds + span.begin, span.size(), alpha.data() + first);
+    if (shade > 0)
+      for (int x = span.begin; x < span.end; ++x)
+        if (shaded.row(y / 2)[x])
+          for (std::uint8_t* a = alpha.data() + at + 2 * x; a < alpha.data() + at + 2 * x + 2; ++a)
+            *a = out_of_shade(*a);
     std::fill(alpha.begin() + static_cast<std::ptrdiff_t>(at) + width,
               alpha.begin() + static_cast<std::ptrdiff_t>(at + stride), std::uint8_t{0});
   }
 }
 
-// F per cell, encoded and times alpha: what is then mixed between cells.
+// F per cell, encoded and times alpha: what is then mixed between cells. Outside the spans it is 0.
 void Keyer::Impl::measure_own_color() {
   const std::size_t n = patch.cells();
-  for (auto& plane : own) plane.resize(n);
+  for (auto& plane : own) plane.assign(n, 0);
   const auto pointers = [](auto& planes) {
     return std::array{planes[0].data(), planes[1].data(), planes[2].data()};
   };
   const auto frame = pointers(patch.frame);
   const auto back = pointers(patch.plate);
   const auto mean = pointers(patch.mean);
-  const float* c[3] = {frame[0], frame[1], frame[2]};
-  const float* b[3] = {back[0], back[1], back[2]};
-  const float* m[3] = {mean[0], mean[1], mean[2]};
-  float* o[3] = {own[0].data(), own[1].data(), own[2].data()};
-  lanes().own_color(patch.alpha.data(), c, b, m, inner.data(), screen->key >= 0,
-                    detail::shape_of(screen->key), n, o);
+  const auto out = pointers(own);
+  const detail::KeyShape shape = detail::shape_of(screen->key);
+  for (int y = 0; y < patch.height; ++y) {
+    const Span span = patch.spans[static_cast<std::size_t>(y)];
+    if (span.size() == 0) continue;
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * patch.width + span.begin;
+    const auto count = static_cast<std::size_t>(span.size());
+    const float* c[3] = {frame[0] + at, frame[1] + at, frame[2] + at};
+    const float* b[3] = {back[0] + at, back[1] + at, back[2] + at};
+    const float* m[3] = {mean[0] + at, mean[1] + at, mean[2] + at};
+    float* o[3] = {out[0] + at, out[1] + at, out[2] + at};
+    const float* weight = patch.alpha.data() + at;
+    lanes().own_color(weight, c, b, m, inner.data() + at, screen->key >= 0, shape, count, o);
+    for (float* plane : o) lanes().encode(weight, plane, count);
+  }
 }
 
 namespace {
@@ -401,9 +432,6 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
   result.straight.rgba.assign(4 * n, 0);
   result.labels.assign(n, 0);
 
-  // Own colour, encoded, times alpha.
-  const std::size_t cells = patch.cells();
-  for (auto& plane : own) lanes().encode(patch.alpha.data(), plane.data(), cells);
   // Deep inside the picture is taken as it is: green clothes stay green.
   const Mask deep = erode_disc(patch.seeds, kUntouched);
   const RgbOfYcc matrix = rgb_of_ycc(frame.coding);
@@ -446,9 +474,10 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
       } else {
         if (!raised) {
           float* up = rows.data() + stride;
-          up_row(patch.alpha, patch.width, patch.height, y, rows.data(), up);
+          const Span span{std::max(first - 1, 0), std::min(last + 1, patch.width)};
+          up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
           for (int p = 0; p < 3; ++p)
-            up_row(own[p], patch.width, patch.height, y, rows.data(),
+            up_row(own[p], patch.width, patch.height, span, y, rows.data(),
                    up + static_cast<std::size_t>(p + 1) * stride);
           raised = true;
         }

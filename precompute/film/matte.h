@@ -5,6 +5,10 @@
 //
 //     C = alpha F + (1 - alpha) B   in linear light, B known, F from the sure subject nearby
 //
+// Each frame is decided alone. Mixing a matte with those before and after it, moved along with the
+// subject, makes the bundled film worse in every measure: at a share of 0.1 each the error goes
+// from 2.77 to 2.96 % and the flicker from 3.22 to 3.47 %, at 0.2 to 3.21 and 3.86 (keyer_bench
+// temporal): the edge moves against the body by more than the matte is wrong.
 #pragma once
 
 #include <cstdint>

@@ -8,6 +8,7 @@
 #include "film/plate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -118,14 +119,20 @@ struct ScreenSurface {
   double sigma[3] = {};
   double share = 0;  // of all samples within reach of the surface
 
-  bool near(const Ycc& c, double u, double v) const {
+  std::array<double, 3> at(double u, double v) const {
+    return {ycc.at(0, u, v), ycc.at(1, u, v), ycc.at(2, u, v)};
+  }
+  /// `middle`: the surface there.
+  bool near(const Ycc& c, const std::array<double, 3>& middle) const {
     const float value[3] = {c.y, c.cb, c.cr};
-    for (int p = 0; p < 3; ++p)
-      if (std::abs(static_cast<double>(value[p]) - ycc.at(p, u, v)) >= 4 * sigma[p] + 2)
-        return false;
+    for (std::size_t p = 0; p < 3; ++p)
+      if (std::abs(static_cast<double>(value[p]) - middle[p]) >= 4 * sigma[p] + 2) return false;
     return true;
   }
 };
+
+// Cells between two that are looked at: `least` of a picture of 640 pixels, more of a larger one.
+int stride_of(const Grid& grid, int least) { return std::max(least, least * grid.width / 320); }
 
 ScreenSurface fit_surface(const std::vector<Grid>& grids, const ScreenColor& color) {
   ScreenSurface s;
@@ -134,25 +141,27 @@ ScreenSurface fit_surface(const std::vector<Grid>& grids, const ScreenColor& col
   s.ycc.coefficient[2][0] = color.cr;
   s.sigma[0] = 14;  // the first reach: 58 in luma, 12 in colour
   s.sigma[1] = s.sigma[2] = 2.5;
+  const int step = stride_of(grids[0], 3);
   for (int round = 0; round < 6; ++round) {
     SurfaceFit fit;
     Spread spread[3];
     std::uint64_t kept = 0;
     std::uint64_t seen = 0;
     for (const Grid& grid : grids)
-      for (int y = 1; y < grid.height; y += 3)
-        for (int x = 1; x < grid.width; x += 3) {
+      for (int y = 1; y < grid.height; y += step)
+        for (int x = 1; x < grid.width; x += step) {
           const Ycc c =
               cell_ycc(grid, static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
                                  static_cast<std::size_t>(x));
           const double u = detail::scaled(x, grid.width);
           const double v = detail::scaled(y, grid.height);
           ++seen;
-          if (!s.near(c, u, v)) continue;
+          const auto middle = s.at(u, v);
+          if (!s.near(c, middle)) continue;
           ++kept;
           const double value[3] = {c.y, c.cb, c.cr};
           fit.add(u, v, value);
-          for (int p = 0; p < 3; ++p) spread[p].add(value[p] - s.ycc.at(p, u, v));
+          for (int p = 0; p < 3; ++p) spread[p].add(value[p] - middle[static_cast<std::size_t>(p)]);
         }
     s.share = static_cast<double>(kept) / static_cast<double>(std::max<std::uint64_t>(seen, 1));
     if (kept == 0) return s;
@@ -173,9 +182,9 @@ struct Bare {
   double steady = 0;     // share of samples near their centre
 };
 
-// Median over time of each cell, of the samples that `candidate` admits.
-template <class Candidate>
-void find_centres(const std::vector<Grid>& grids, Bare& bare, Candidate candidate,
+// Median over time of each cell, of the samples that what `admit` makes for the cell admits.
+template <class Admit>
+void find_centres(const std::vector<Grid>& grids, Bare& bare, Admit admit,
                   std::vector<std::uint8_t>& known) {
   const std::size_t cells = grids[0].cells();
   std::vector<std::uint16_t> values[3];
@@ -183,8 +192,9 @@ void find_centres(const std::vector<Grid>& grids, Bare& bare, Candidate candidat
   for (auto& centre : bare.centre) centre.assign(cells, 0);
   for (std::size_t i = 0; i < cells; ++i) {
     for (auto& v : values) v.clear();
+    const auto admitted = admit(i);
     for (const Grid& grid : grids)
-      if (candidate(grid, i))
+      if (admitted(grid))
         for (int p = 0; p < 3; ++p) values[p].push_back(grid.plane[p][i]);
     if (values[0].size() * 25 < grids.size() || values[0].empty()) {
       known[i] = 0;
@@ -338,8 +348,9 @@ void measure_noise(std::span<const Frame> frames, const std::vector<Grid>& grids
   for (std::size_t f = 0; f < grids.size(); ++f) {
     const Grid& grid = grids[f];
     const Surface drift = detail::fit_drift(screen, frames[f], 9);
-    for (int y = 1; y < grid.height; y += 2)
-      for (int x = 1; x < grid.width; x += 2) {
+    const int step = stride_of(grid, 2);
+    for (int y = 1; y < grid.height; y += step)
+      for (int x = 1; x < grid.width; x += step) {
         const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
                               static_cast<std::size_t>(x);
         if (!bare.in[f].in[i]) continue;
@@ -380,7 +391,7 @@ int choose_key(const float (&color)[3]) {
     light[c] = detail::linear_of_sums()[static_cast<std::size_t>(
         std::clamp(4 * color[c] + 0.5f, 0.0f, 1020.0f))];
   int best = -1;
-  float strength = 0.08f;
+  float strength = 0.02f;
   const float largest = std::max({light[0], light[1], light[2]});
   for (int key = 0; key < detail::kKeyCount; ++key) {
     const bool warm = key == 0 || key == 5;
@@ -427,9 +438,11 @@ void model_colored(std::span<const Frame> frames, const std::vector<Grid>& grids
   };
   find_centres(
       grids, bare,
-      [&](const Grid& grid, std::size_t i) {
+      [&](std::size_t i) {
         const auto [u, v] = place(i);
-        return surface.near(cell_ycc(grid, i), u, v);
+        return [&surface, i, middle = surface.at(u, v)](const Grid& grid) {
+          return surface.near(cell_ycc(grid, i), middle);
+        };
       },
       known);
   for (std::size_t i = 0; i < known.size(); ++i) {
@@ -455,7 +468,7 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
   Bare bare;
   std::vector<std::uint8_t> known;
   find_centres(
-      grids, bare, [](const Grid&, std::size_t) { return true; }, known);
+      grids, bare, [](std::size_t) { return [](const Grid&) { return true; }; }, known);
   find_bare(grids, bare);
   if (bare.steady < least_steady)
     return Error{ErrorCode::BadContent,
@@ -472,6 +485,19 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
   return screen;
 }
 
+// Where a standing plate is of the subject's own colour, the mouse before the dark wall, its shadow
+// and reflection differ from it as much as it does.
+void mark_unlike(const float (&subject)[3], ScreenModel& screen) {
+  const float least = 0.35f * screen.subject_contrast;
+  screen.unlike.resize(screen.cells[0].size());
+  for (std::size_t i = 0; i < screen.unlike.size(); ++i) {
+    const float away =
+        detail::distance_squared(subject[0] - screen.cells[0][i], subject[1] - screen.cells[1][i],
+                                 subject[2] - screen.cells[2][i]);
+    screen.unlike[i] = away > least * least ? 1 : 0;
+  }
+}
+
 // What the subject's own figures have to say: how strong its colours are against the key, and how
 // large it is.
 void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
@@ -480,6 +506,8 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   std::vector<std::uint32_t> strengths(400);  // v in fiftieths
   std::uint64_t strength_count = 0;
   std::vector<std::uint32_t> contrasts(512);
+  std::vector<std::uint64_t> colors[3];  // sums of four, by contrast
+  for (auto& sums : colors) sums.resize(contrasts.size());
   std::uint64_t contrast_count = 0;
   std::vector<int> areas;
   std::vector<int> labels;
@@ -493,8 +521,10 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
     const Mask inside = erode(s.mask, 1);
     for (std::size_t i = 0; i < inside.in.size(); ++i) {
       if (!inside.in[i]) continue;
-      ++contrasts[std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1)];
+      const auto of = std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1);
+      ++contrasts[of];
       ++contrast_count;
+      for (std::size_t p = 0; p < 3; ++p) colors[p][of] += s.grid.plane[p][i];
     }
     if (screen.key < 0) continue;
     const Mask deep = erode(s.mask, 4);
@@ -518,6 +548,19 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   bin = 0;
   while (bin < contrasts.size() - 1 && 2 * (seen += contrasts[bin]) < contrast_count) ++bin;
   screen.subject_contrast = static_cast<float>(bin);
+  if (screen.kind == KeyKind::Plate && contrast_count > 0) {
+    float subject[3];
+    for (int p = 0; p < 3; ++p) {
+      double sum = 0;
+      double count = 0;
+      for (std::size_t k = bin; k < contrasts.size(); ++k) {
+        sum += static_cast<double>(colors[p][k]);
+        count += contrasts[k];
+      }
+      subject[p] = static_cast<float>(0.25 * sum / count);
+    }
+    mark_unlike(subject, screen);
+  }
   if (areas.empty()) return;
   std::nth_element(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2),
                    areas.end());

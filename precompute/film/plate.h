@@ -53,8 +53,11 @@ struct ScreenModel {
   int key = -1;                ///< index of the colour difference that marks the screen, -1: none
   float key_normaliser = 1;    ///< the subject's usual key strength, >= 1 (film/unmix.h)
   float subject_contrast = 0;  ///< the subject's usual distance from the plate, code values
-  int opening = 2;             ///< cells, radius that removes tail and fins from the anchor's mask
-  float hidden = 0;            ///< share of the plate that was never seen bare, 0..1
+  /// Of cells: 1 where the plate looks unlike the subject; empty: everywhere. Elsewhere a faint
+  /// difference may as well be its shadow or reflection (kind Plate).
+  std::vector<std::uint8_t> unlike;
+  int opening = 2;   ///< cells, radius that removes tail and fins from the anchor's mask
+  float hidden = 0;  ///< share of the plate that was never seen bare, 0..1
 };
 
 /// Measures the screen. `frames`: 8 or more, spread over the film. Errors: BadContent (no steady

@@ -188,19 +188,20 @@ void set_limits(const ScreenModel& screen, const YccOfRgb& m, const Surface& dri
   }
 }
 
-// The rectangle of all blocks that differ from the plate; most blocks of most frames end here.
-Window find_window(const ScreenModel& screen, const Frame& frame, const Surface& drift) {
+// The blocks that differ from the plate, with a margin: their rectangle, and a run of cells for
+// each of its rows. Most blocks of most frames end here.
+void find_window(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
   const int w = frame.cell_width();
   const int h = frame.cell_height();
   const YccOfRgb m = ycc_of_rgb(screen.plate.coding);
   std::vector<RowLimits> limits(static_cast<std::size_t>((w + kBlockWide - 1) / kBlockWide));
   std::vector<int> counts(limits.size());
-  int left = w;
-  int right = 0;
+  std::vector<Span> blocks(static_cast<std::size_t>((h + kBlockHigh - 1) / kBlockHigh));
+  Span all{w, 0};
   int top = h;
   int bottom = 0;
   for (int y = 0; y < h; y += kBlockHigh) {
-    set_limits(screen, m, drift, scaled(std::min(y + kBlockHigh / 2, h - 1), h), w, limits);
+    set_limits(screen, m, s.drift, scaled(std::min(y + kBlockHigh / 2, h - 1), h), w, limits);
     std::fill(counts.begin(), counts.end(), 0);
     for (int row = y; row < std::min(y + kBlockHigh, h); ++row) {
       const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(w);
@@ -212,60 +213,88 @@ Window find_window(const ScreenModel& screen, const Frame& frame, const Surface&
                               screen.plate.cr.data() + cell, frame.width / 2, kBlockWide,
                               limits.data(), counts.data());
     }
+    Span span{w, 0};
     for (std::size_t k = 0; k < counts.size(); ++k) {
       if (counts[k] < kFewest) continue;
       const int x = static_cast<int>(k) * kBlockWide;
-      left = std::min(left, x);
-      right = std::max(right, x + kBlockWide);
-      top = std::min(top, y);
-      bottom = y + kBlockHigh;
+      span = {std::min(span.begin, std::max(x - kWindowMargin, 0)),
+              std::min(x + kBlockWide + kWindowMargin, w)};
     }
+    blocks[static_cast<std::size_t>(y / kBlockHigh)] = span;
+    if (span.size() == 0) continue;
+    all = {std::min(all.begin, span.begin), std::max(all.end, span.end)};
+    top = std::min(top, y);
+    bottom = y + kBlockHigh;
   }
-  if (right <= left) return {};
-  left = std::max(left - kWindowMargin, 0);
+  s.window = {};
+  if (all.size() == 0) return;
   top = std::max(top - kWindowMargin, 0);
-  return {left, top, std::min(right + kWindowMargin, w) - left,
-          std::min(bottom + kWindowMargin, h) - top};
+  s.window = {all.begin, top, all.size(), std::min(bottom + kWindowMargin, h) - top};
+  s.spans.assign(static_cast<std::size_t>(s.window.height), {});
+  for (int y = 0; y < s.window.height; ++y) {
+    Span span{w, 0};
+    const int first = std::max(top + y - kWindowMargin, 0) / kBlockHigh;
+    const int last = std::min(top + y + kWindowMargin, h - 1) / kBlockHigh;
+    for (int k = first; k <= last; ++k) {
+      const Span& block = blocks[static_cast<std::size_t>(k)];
+      if (block.size()) span = {std::min(span.begin, block.begin), std::max(span.end, block.end)};
+    }
+    if (span.size())
+      s.spans[static_cast<std::size_t>(y)] = {span.begin - all.begin, span.end - all.begin};
+  }
 }
 
-// The window in linear light, and the contrast of each cell to the frame's own plate.
+// The window's spans in linear light, and the contrast of each cell to the frame's own plate.
 void look_closely(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
-  make_grid(frame, s.window, s.grid);
+  make_grid(frame, s.window, s.spans, s.grid);
   const std::size_t n = s.window.cells();
   for (int p = 0; p < 3; ++p) {
     s.frame[p].resize(n);
     s.plate[p].resize(n);
-    lanes().look_up(linear_of_sums().data(), s.grid.plane[p].data(), static_cast<int>(n),
-                    s.frame[p].data());
   }
-  s.rough.resize(n);
+  s.rough.assign(n, 0);
   const int w = frame.cell_width();
-  const RowScale u = scale_of(s.window.left, w);
   for (int y = 0; y < s.window.height; ++y) {
+    const Span span = s.spans[static_cast<std::size_t>(y)];
+    if (span.size() == 0) continue;
+    const RowScale u = scale_of(s.window.left + span.begin, w);
     const double v = scaled(s.window.top + y, frame.cell_height());
-    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(s.window.width);
+    const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(s.window.width) +
+                           static_cast<std::size_t>(span.begin);
     const std::size_t from =
         static_cast<std::size_t>(s.window.top + y) * static_cast<std::size_t>(w) +
-        static_cast<std::size_t>(s.window.left);
+        static_cast<std::size_t>(s.window.left + span.begin);
     const RowTerms drift[3] = {row_of(s.drift, 0, v), row_of(s.drift, 1, v), row_of(s.drift, 2, v)};
     const std::uint16_t* sums[3];
     const float* plate[3];
     for (int p = 0; p < 3; ++p) {
       sums[p] = s.grid.plane[p].data() + at;
       plate[p] = screen.cells[p].data() + from;
+      lanes().look_up(linear_of_sums().data(), sums[p], span.size(), s.frame[p].data() + at);
       lanes().shift(screen.linear[p].data() + from, screen.slope[p].data() + from, drift[p], u,
-                    s.window.width, s.plate[p].data() + at);
+                    span.size(), s.plate[p].data() + at);
     }
-    lanes().contrast(sums, plate, drift, u, s.window.width, s.rough.data() + at);
+    lanes().contrast(sums, plate, drift, u, span.size(), s.rough.data() + at);
+    if (screen.key < 0) continue;
+    const float* c[3] = {s.frame[0].data() + at, s.frame[1].data() + at, s.frame[2].data() + at};
+    const float* b[3] = {s.plate[0].data() + at, s.plate[1].data() + at, s.plate[2].data() + at};
+    lanes().forgive_shadows(c, b, static_cast<std::size_t>(span.size()), s.rough.data() + at);
   }
 }
 
 // Without a key faint differences are shadows, reflections and the codec's smear: they count only
-// within three cells of what stands out as the subject does.
+// within three cells of what stands out as the subject does, before a plate that is unlike it.
 void drop_faint(const ScreenModel& screen, Silhouette& s) {
   Mask strong(s.mask.width, s.mask.height);
   const float least = std::max(2 * screen.threshold, 0.2f * screen.subject_contrast);
   lanes().above(s.contrast.data(), least, strong.in.size(), strong.in.data());
+  if (!screen.unlike.empty())
+    for (int y = 0; y < s.window.height; ++y)
+      lanes().spread_into(
+          screen.unlike.data() +
+              static_cast<std::ptrdiff_t>(s.window.top + y) * ((screen.width + 1) / 2) +
+              s.window.left,
+          static_cast<std::size_t>(s.window.width), false, strong.row(y));
   const Mask near = dilate(strong, 3);
   lanes().spread_into(near.in.data(), near.in.size(), false, s.mask.in.data());
 }
@@ -297,14 +326,11 @@ bool find_box(const Mask& mask, Window& box) {
 void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
   s.empty = true;
   s.drift = fit_drift(screen, frame, screen.threshold);
-  s.window = find_window(screen, frame, s.drift);
+  find_window(screen, frame, s);
   s.mask = Mask(s.window.width, s.window.height);
   if (s.window.cells() == 0) return;
   look_closely(screen, frame, s);
   const std::size_t n = s.window.cells();
-  const float* c[3] = {s.frame[0].data(), s.frame[1].data(), s.frame[2].data()};
-  const float* b[3] = {s.plate[0].data(), s.plate[1].data(), s.plate[2].data()};
-  if (screen.key >= 0) lanes().forgive_shadows(c, b, n, s.rough.data());
   s.contrast.resize(n);
   s.scratch.resize(n);
   lanes().blur3(s.rough.data(), s.window.width, s.window.height, s.scratch.data(),

@@ -54,9 +54,10 @@ inline RowScale scale_of(int left, int width) {
 /// Where a frame may differ from its plate, and what it looks like there. All maps are those of
 /// `window`, planes are R, G, B.
 struct Silhouette {
-  Surface drift;                ///< frame - plate on the bare screen, code values
-  Window window;                ///< what was looked at: blocks that differ, and a margin
-  Grid grid;                    ///< the frame, encoded
+  Surface drift;            ///< frame - plate on the bare screen, code values
+  Window window;            ///< what was looked at: blocks that differ, and a margin
+  std::vector<Span> spans;  ///< of the window's rows; outside nothing but mask and contrast is set
+  Grid grid;                ///< the frame, encoded
   std::vector<float> frame[3];  ///< the same in linear light
   std::vector<float> plate[3];  ///< the plate with the drift, in linear light
   std::vector<float> contrast;  ///< smoothed distance to the plate, code values

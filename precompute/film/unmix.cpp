@@ -15,6 +15,7 @@ namespace vsprite::detail {
 namespace {
 
 constexpr int kMargin = 4;              // cells around the silhouette
+constexpr int kReach = 2;               // cells around the region that are looked at
 constexpr float kSpill = 0.05f;         // share of the plate in a foreground near it, and at the
 constexpr float kRimSpill = 0.08f;      // rim, where screen light falls from behind
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one
@@ -66,21 +67,33 @@ std::vector<float> largest_around(const std::vector<float>& plane, int width, in
   return both;
 }
 
+// Calls `with(first cell, cells)` for the span of every row: all that is read of a patch.
+template <class With>
+void each_span(const Patch& patch, With with) {
+  for (std::size_t y = 0; y < patch.spans.size(); ++y)
+    if (const Span span = patch.spans[y]; span.size())
+      with(y * static_cast<std::size_t>(patch.width) + static_cast<std::size_t>(span.begin),
+           static_cast<std::size_t>(span.size()));
+}
+
 // Evidence of coverage before any foreground is known: v, or the distance to the plate against its
 // largest nearby; and the smallest alpha for which F lies in the gamut.
 void gather_evidence(const ScreenModel& screen, Patch& patch) {
   const std::size_t n = patch.cells();
   patch.bound.resize(n + kRoom);
-  patch.key.resize(n + kRoom);
-  const ConstPointers frame(patch.frame);
-  const ConstPointers plate(patch.plate);
-  const ConstPointers noise(patch.noise);
-  lanes().gamut_bound(frame.at, plate.at, noise.at, n, patch.bound.data());
-  if (screen.key >= 0) {
-    lanes().key_share(frame.at, plate.at, shape_of(screen.key), n, patch.key.data());
-    return;
-  }
-  lanes().distance(frame.at, plate.at, n, patch.key.data());
+  patch.key.assign(n + kRoom, 0);
+  const KeyShape shape = shape_of(screen.key);
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    const ConstPointers frame(patch.frame, at);
+    const ConstPointers plate(patch.plate, at);
+    const ConstPointers noise(patch.noise, at);
+    lanes().gamut_bound(frame.at, plate.at, noise.at, count, patch.bound.data() + at);
+    if (screen.key >= 0)
+      lanes().key_share(frame.at, plate.at, shape, count, patch.key.data() + at);
+    else
+      lanes().distance(frame.at, plate.at, count, patch.key.data() + at);
+  });
+  if (screen.key >= 0) return;
   for (std::size_t i = 0; i < n; ++i)
     if (!patch.region.in[i]) patch.key[i] = 0;
   const std::vector<float> most = largest_around(patch.key, patch.width, patch.height, 4);
@@ -115,8 +128,8 @@ void fill_holes(const Patch& patch, Mask& seeds) {
     if (!open[static_cast<std::size_t>(labels[i])]) seeds.in[i] = 1;
 }
 
-// A screen without a key says nothing of translucence: what stands out, two cells inside, is
-// opaque.
+// A standing plate of any texture says nothing of translucence: what stands out, two cells inside,
+// is opaque.
 void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
   Mask strong(patch.width, patch.height);
   lanes().above(patch.contrast.data(), 2 * screen.threshold, strong.in.size(), strong.in.data());
@@ -133,13 +146,13 @@ void find_seeds(const ScreenModel& screen, Patch& patch) {
   Mask sure(patch.width, patch.height);
   Mask likely(patch.width, patch.height);
   const float inverse = screen.key >= 0 ? 1 / screen.key_normaliser : 1.0f;
-  for (std::size_t i = 0; i < n; ++i) {
-    const float score = std::max(patch.key[i] * inverse, 1.15f * patch.bound[i]);
-    sure.in[i] = score > 0.85f ? patch.region.in[i] : std::uint8_t{0};
-    likely.in[i] = score > enough ? patch.region.in[i] : std::uint8_t{0};
-  }
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    lanes().score({patch.key.data() + at, patch.bound.data() + at, patch.region.in.data() + at,
+                   inverse, 0.85f, enough},
+                  count, sure.in.data() + at, likely.in.data() + at);
+  });
   patch.seeds = erode(dilate(sure, 1), 2);
-  if (screen.key < 0) add_inside(screen, patch, patch.seeds);
+  if (screen.kind == KeyKind::Plate) add_inside(screen, patch, patch.seeds);
   Mask deep = erode_disc(patch.region, 5);
   const Mask all_likely = erode(likely, 2);
   lanes().spread_into(all_likely.in.data(), n, false, deep.in.data());
@@ -162,16 +175,27 @@ void gather_moments(Patch& patch, const std::vector<float>& weight,
   near_all.resize(n);
   for (int k = 0; k < kMoments; ++k) patch.near[k].resize(n);
   for (int y = 0; y < h; ++y) {
-    const auto top = static_cast<std::size_t>(2 * y) * static_cast<std::size_t>(patch.width);
     const bool both = 2 * y + 1 < patch.height;
+    const Span upper = patch.spans[static_cast<std::size_t>(2 * y)];
+    const Span lower = both ? patch.spans[static_cast<std::size_t>(2 * y + 1)] : Span{};
+    Span span = upper.size() ? upper : lower;
+    if (upper.size() && lower.size())
+      span = {std::min(upper.begin, lower.begin), std::max(upper.end, lower.end)};
+    span.begin &= ~1;
+    const auto skipped = static_cast<std::size_t>(span.begin);
+    const auto top =
+        static_cast<std::size_t>(2 * y) * static_cast<std::size_t>(patch.width) + skipped;
     const auto low = both ? top + static_cast<std::size_t>(patch.width) : top;
     float* out[kMoments];
-    for (int k = 0; k < kMoments; ++k)
-      out[k] = patch.near[k].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
+    for (int k = 0; k < kMoments; ++k) {
+      float* row = patch.near[k].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
+      std::fill(row, row + w, 0.0f);
+      out[k] = row + skipped / 2;
+    }
     const ConstPointers first(color, top);
     const ConstPointers second(color, low);
     lanes().moments(weight.data() + top, both ? weight.data() + low : nullptr, first.at, second.at,
-                    patch.width, out);
+                    span.size(), out);
   }
   const std::vector<float> nothing(static_cast<std::size_t>(w));
   for (int k = 0; k < kMoments; ++k) {
@@ -218,27 +242,29 @@ void solve_alpha(Patch& patch, float spill, bool final) {
   ProjectionRow row{};
   row.mode = patch.mode.data();
   for (int k = 0; k < kMoments; ++k) row.moment[k] = patch.rows[k].data() + w;
+  std::fill(patch.alpha.begin(), patch.alpha.end(), 0.0f);
+  if (!final) std::fill(patch.residual.begin(), patch.residual.end(), 0.0f);
   for (int y = 0; y < patch.height; ++y) {
+    const Span span = patch.spans[static_cast<std::size_t>(y)];
+    if (span.size() == 0) continue;
     const std::size_t at = static_cast<std::size_t>(y) * width;
-    const std::uint8_t* seeds = patch.seeds.row(y);
-    const std::uint8_t* region = patch.region.row(y);
     float* alpha = patch.alpha.data() + at;
-    std::uint8_t most = 0;
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint8_t sure = final ? 1 : 0;
-      const std::uint8_t open = region[x] ? 2 : 0;
-      patch.mode[x] = seeds[x] ? sure : open;
-      alpha[x] = seeds[x] ? 1.0f : 0.0f;
-      most = std::max(most, patch.mode[x]);
-    }
-    if (!final) std::fill_n(patch.residual.begin() + static_cast<std::ptrdiff_t>(at), width, 0.0f);
-    if (most == 0) continue;
+    std::fill(patch.mode.begin(), patch.mode.end(), std::uint8_t{0});
+    const auto skipped = static_cast<std::size_t>(span.begin);
+    if (!lanes().modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped, final,
+                       static_cast<std::size_t>(span.size()), patch.mode.data() + skipped,
+                       alpha + skipped))
+      continue;
     const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), h - 1);
+    // The span's squares and those beside them.
+    const int from = std::max(span.begin / 2 - 1, 0);
+    const int count = std::min((span.end + 1) / 2 + 1, w) - from;
     for (int k = 0; k < kMoments; ++k) {
-      const float* a = patch.near[k].data() + static_cast<std::ptrdiff_t>(y / 2) * w;
-      const float* b = patch.near[k].data() + static_cast<std::ptrdiff_t>(second) * w;
-      lanes().mix(a, 0.75f, b, 0.25f, static_cast<std::size_t>(w), patch.rows[k].data());
-      lanes().double_row(patch.rows[k].data(), w, patch.rows[k].data() + w);
+      const float* a = patch.near[k].data() + static_cast<std::ptrdiff_t>(y / 2) * w + from;
+      const float* b = patch.near[k].data() + static_cast<std::ptrdiff_t>(second) * w + from;
+      float* mixed = patch.rows[k].data();
+      lanes().mix(a, 0.75f, b, 0.25f, static_cast<std::size_t>(count), mixed);
+      lanes().double_row(mixed, count, mixed + w + 2 * from);
     }
     for (int p = 0; p < 3; ++p) {
       row.frame[p] = patch.frame[p].data() + at;
@@ -249,7 +275,7 @@ void solve_alpha(Patch& patch, float spill, bool final) {
     row.bound = patch.bound.data() + at;
     row.alpha = alpha;
     row.residual = final ? nullptr : patch.residual.data() + at;
-    lanes().project(row, spill, patch.width);
+    lanes().project(row, spill, span.begin, span.end, patch.width);
   }
 }
 
@@ -281,7 +307,9 @@ void grow_seeds(Patch& patch) {
     patch.seeds = std::move(near);
     if (!grown) break;
   }
-  for (std::size_t i = 0; i < n; ++i) patch.alpha[i] = patch.seeds.in[i] ? 1.0f : patch.alpha[i];
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    lanes().set_sure(patch.seeds.in.data() + at, count, patch.alpha.data() + at);
+  });
 }
 
 }  // namespace
@@ -310,14 +338,20 @@ void cut_patch(const ScreenModel& screen, const Silhouette& s, Patch& patch) {
     const std::size_t to = static_cast<std::size_t>(y) * width;
     std::copy_n(s.mask.in.data() + from, width, patch.core.row(y));
     std::copy_n(s.contrast.data() + from, width, patch.contrast.data() + to);
-    for (int p = 0; p < 3; ++p) {
-      std::copy_n(s.frame[p].data() + from, width, patch.frame[p].data() + to);
-      std::copy_n(s.plate[p].data() + from, width, patch.plate[p].data() + to);
-      lanes().look_up(noise.data(), s.grid.plane[p].data() + from, patch.width,
-                      patch.noise[p].data() + to);
-    }
   }
   patch.region = dilate(patch.core, 2);
+  spans_of(patch.region, kReach, patch.spans);
+  each_span(patch, [&](std::size_t to, std::size_t count) {
+    const std::size_t from = (static_cast<std::size_t>(patch.top - window.top) + to / width) *
+                                 static_cast<std::size_t>(window.width) +
+                             static_cast<std::size_t>(patch.left - window.left) + to % width;
+    for (int p = 0; p < 3; ++p) {
+      std::copy_n(s.frame[p].data() + from, count, patch.frame[p].data() + to);
+      std::copy_n(s.plate[p].data() + from, count, patch.plate[p].data() + to);
+      lanes().look_up(noise.data(), s.grid.plane[p].data() + from, static_cast<int>(count),
+                      patch.noise[p].data() + to);
+    }
+  });
 }
 
 void unmix(const ScreenModel& screen, Patch& patch) {
@@ -328,21 +362,26 @@ void unmix(const ScreenModel& screen, Patch& patch) {
   patch.residual.resize(n + kRoom);
   for (auto& plane : patch.color) plane.resize(n + kRoom);
   for (int round = 0; round < 2; ++round) {
-    for (std::size_t i = 0; i < n; ++i) patch.weight[i] = static_cast<float>(patch.seeds.in[i]);
+    std::fill(patch.weight.begin(), patch.weight.end(), 0.0f);
+    each_span(patch, [&](std::size_t at, std::size_t count) {
+      lanes().set_sure(patch.seeds.in.data() + at, count, patch.weight.data() + at);
+    });
     gather_moments(patch, patch.weight, patch.frame);
     solve_alpha(patch, kSpill, false);
     if (round > 0 || !add_unexplained(patch)) break;
   }
   if (screen.key >= 0) grow_seeds(patch);
-  const ConstPointers frame(patch.frame);
-  const ConstPointers plate(patch.plate);
-  const Pointers color(patch.color);
   patch.soft.resize(n);
   patch.scratch.resize(n);
   lanes().blur3(patch.alpha.data(), patch.width, patch.height, patch.scratch.data(),
                 patch.soft.data());
-  lanes().weigh_rim(patch.seeds.in.data(), patch.soft.data(), patch.alpha.data(), frame.at,
-                    plate.at, n, patch.weight.data(), color.at);
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    const ConstPointers frame(patch.frame, at);
+    const ConstPointers plate(patch.plate, at);
+    const Pointers color(patch.color, at);
+    lanes().weigh_rim(patch.seeds.in.data() + at, patch.soft.data() + at, patch.alpha.data() + at,
+                      frame.at, plate.at, count, patch.weight.data() + at, color.at);
+  });
   gather_moments(patch, patch.weight, patch.color);
   solve_alpha(patch, kRimSpill, true);
 }

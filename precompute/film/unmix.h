@@ -23,6 +23,7 @@ struct Patch {
   int left = 0, top = 0, width = 0, height = 0;  ///< cells, place on the film's grid
   Mask core;                                     ///< the silhouette
   Mask region;                                   ///< where alpha may be above 0: two cells more
+  std::vector<Span> spans;                       ///< of each row, what holds the region and kReach
   std::vector<float> contrast;                   ///< code values, as in Silhouette
   std::vector<float> frame[3], plate[3];         ///< C, B: linear R, G, B
   std::vector<float> noise[3];                   ///< sigma_n, linear

@@ -89,7 +89,7 @@ TEST(Lanes, ProjectAsTheFormulaDoes) {
     }
   }
   on_every_target([&](const char* target) {
-    detail::lanes().project(row, 0.05f, kCells);
+    detail::lanes().project(row, 0.05f, 0, kCells, kCells);
     for (int i = 0; i < kCells; ++i)
       ASSERT_NEAR(alpha[static_cast<std::size_t>(i)], testing::plain_projection(row, 0.05f, i),
                   2e-3)

@@ -113,6 +113,42 @@ inline CutOut furry_ball(int frame, int width, int height) {
   return out;
 }
 
+/// An opaque grey animal with large pink ears and a pink tail: against a screen its grey looks like
+/// half of its pink.
+inline CutOut grey_mouse(int frame, int width, int height) {
+  constexpr int kFine = 3;  // samples a pixel along each axis
+  const double cx = width * (0.5 + 0.25 * std::sin(frame * 0.05));
+  const double cy = height * (0.55 + 0.12 * std::sin(frame * 0.08));
+  const double r = 0.12 * height;
+  const float grey[3] = {0.19f, 0.185f, 0.18f}, pink[3] = {0.60f, 0.24f, 0.26f};
+  CutOut out{width, height, {}, {}};
+  out.alpha.resize(static_cast<std::size_t>(width * height));
+  out.foreground.resize(3 * out.alpha.size());
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      int grey_count = 0, pink_count = 0;
+      for (int s = 0; s < kFine * kFine; ++s) {
+        const double u = (x + (s % kFine + 0.5) / kFine - cx) / r;
+        const double v = (y + (s / kFine + 0.5) / kFine - cy) / r;
+        const double ear = std::min(std::hypot(u - 0.9, v + 0.95), std::hypot(u - 0.1, v + 1.05));
+        const double swing = 0.35 * std::sin(2.2 * u + 0.3 * frame);
+        if (ear < 0.42 || (u < -1.2 && u > -3.4 && std::abs(v - swing) < 0.28))
+          ++pink_count;
+        else if (u * u / 2.2 + v * v < 1 || ear < 0.55)
+          ++grey_count;
+      }
+      const int count = grey_count + pink_count;
+      if (count == 0) continue;
+      const auto i = static_cast<std::size_t>(y * width + x);
+      out.alpha[i] = static_cast<float>(count) / (kFine * kFine);
+      const float share = static_cast<float>(pink_count) / static_cast<float>(count);
+      const float coat = 1 + 0.15f * static_cast<float>(std::sin(0.21 * x) * std::sin(0.17 * y));
+      for (std::size_t c = 0; c < 3; ++c)
+        out.foreground[3 * i + c] = share * pink[c] + (1 - share) * grey[c] * coat;
+    }
+  return out;
+}
+
 /// What the camera sees of a cut-out under a condition.
 inline Image composite(const CutOut& cut, const Condition& c, int frame) {
   static const std::vector<float> encoded = [] {
