@@ -12,13 +12,16 @@
 #include <cmath>
 #include <new>
 
+#include "pack_format.h"
 #include "vsprite/policy.h"
 
 namespace vsprite {
 namespace {
 
+using detail::TickTable;
+
 const ControlMode& mode_of(const Sprite& sprite, const Actor& actor) noexcept {
-  return sprite.data().modes[actor.mode];
+  return sprite.impl().data.modes[actor.mode];
 }
 
 std::uint32_t followed(const ControlMode& mode, Direction command) noexcept {
@@ -35,54 +38,80 @@ struct Displacement {
   std::int64_t x = 0, y = 0;
 };
 
-// The step (x, y) turned towards the unit vector u, but not by more than the mode's bend, at the
-// same length. Whole numbers throughout: |u| = 2^30, so products stay below 2^63.
-Displacement bend(const Sample& sample, UnitVector u, const ControlMode& mode) noexcept {
-  const std::int64_t x = sample.step_x, y = sample.step_y;
-  constexpr std::int64_t kHalf = kUnitOne / 2;
-  const std::int64_t along = (x * u.x + y * u.y) >> 30, across = (x * u.y - y * u.x) >> 30;
-  const std::int64_t off = across < 0 ? -across : across;
-  if (along > 0 && off * mode.bend_cos <= along * mode.bend_sin) {
-    const std::int64_t length = sample.step_length;
-    return {(length * u.x + kHalf) >> 30, (length * u.y + kHalf) >> 30};
-  }
-  const std::int64_t c = mode.bend_cos, s = across < 0 ? -mode.bend_sin : mode.bend_sin;
-  return {(x * c - y * s + kHalf) >> 30, (x * s + y * c + kHalf) >> 30};
-}
-
 // What a tick moves: the step of the shown sample, and in the first tick after a sample was left
 // out, all of that one's.
-Displacement displacement(const Sprite& sprite, const Actor& actor) noexcept {
-  const auto& samples = sprite.data().samples;
-  const ControlMode& mode = mode_of(sprite, actor);
-  const bool bends = mode.bend_sin != 0 && actor.bent < mode.headings;
-  const UnitVector u =
-      bends ? heading_vector(actor.bent * (kMaxHeadings / mode.headings)) : UnitVector{};
-  const auto step_of = [&](const Sample& s) -> Displacement {
-    return bends ? bend(s, u, mode) : Displacement{s.step_x, s.step_y};
+Displacement displacement(const Sprite::Impl& impl, const Actor& actor) noexcept {
+  const TickTable& table = impl.ticks[actor.mode];
+  const auto step_of = [&](std::uint32_t sample) -> Displacement {
+    const std::uint32_t* record = table.record(sample, actor.bent);
+    return {static_cast<std::int32_t>(record[0]), static_cast<std::int32_t>(record[1])};
   };
-  Displacement d = step_of(samples[actor.sample]);
+  Displacement d = step_of(actor.sample);
   if (actor.skipped == 0) return d;
-  const Sample& left_out = samples[actor.sample - 1];
-  const Displacement more = step_of(left_out);
-  return {d.x + more.x * left_out.duration, d.y + more.y * left_out.duration};
+  const Displacement more = step_of(actor.sample - 1);
+  const std::int64_t duration = impl.data.samples[actor.sample - 1].duration;
+  return {d.x + more.x * duration, d.y + more.y * duration};
+}
+
+void move_by(Actor& actor, Displacement by) noexcept {
+  ++actor.tick;
+  actor.position.x = moved(actor.position.x, by.x);
+  actor.position.y = moved(actor.position.y, by.y);
+}
+
+// Keeps showing the sample, if its time is not over.
+bool stays(const Sprite::Impl& impl, Actor& actor) noexcept {
+  if (actor.shown >= impl.data.samples[actor.sample].duration) return false;
+  ++actor.shown;
+  actor.jumped = actor.skipped = 0;
+  return true;
 }
 
 // Shows what a table chose, or a near tie of it.
-void show(const Sprite& sprite, Actor& actor, std::uint32_t table, std::uint32_t next) noexcept {
-  const ControlMode& mode = mode_of(sprite, actor);
-  const bool natural = sprite.is_natural(actor.sample, next);
-  actor.skipped = !natural && mode.plays_through && sprite.is_skip(actor.sample, next) ? 1 : 0;
-  actor.jumped = natural ? 0 : 1;
-  actor.sample = next;
+void show(Actor& actor, std::uint32_t table, std::uint32_t move) noexcept {
+  actor.sample = move & detail::kMoveSample;
   actor.shown = 1;
   actor.table = static_cast<std::uint8_t>(table);
-  if (actor.stage == 0) return;
-  if (!mode.by_state) {
-    --actor.stage;
-  } else if (actor.group >= mode.headings || (mode.arrived[next] >> actor.group & 1u) != 0) {
-    actor.stage = 0;
+  actor.stage = static_cast<std::uint8_t>(move >> detail::kMoveStageShift & detail::kMoveStage);
+  actor.jumped = static_cast<std::uint8_t>(move >> detail::kMoveJumpedShift & 1u);
+  actor.skipped = static_cast<std::uint8_t>(move >> detail::kMoveSkippedShift & 1u);
+}
+
+// One tick by the tables. Without a branch that depends on the film: a sample that was left out
+// counts zero times where none was, and what stays takes its old values.
+inline void tick(const Sprite::Impl& impl, Actor& actor) noexcept {
+  using namespace detail;
+  const TickTable& table = impl.ticks[actor.mode];
+  const std::uint32_t* record = table.record(actor.sample, actor.bent);
+  const std::uint32_t* before = record - actor.skipped * table.stride();
+  const std::uint32_t lasted = actor.skipped * (before[2] >> kMoveShownShift);
+  const std::uint32_t index = actor.group * table.stages + actor.stage;
+  const std::uint32_t move = table.record(actor.sample, actor.group)[2 + actor.stage];
+  const std::uint32_t shown_for = move >> kMoveShownShift;
+  if (lasted == kLongShown || shown_for == kLongShown) [[unlikely]] {
+    move_by(actor, displacement(impl, actor));
+    actor.bent = actor.group;
+    if (!stays(impl, actor)) show(actor, index, move);
+    return;
   }
+  const auto x = [](const std::uint32_t* r) {
+    return std::int64_t{static_cast<std::int32_t>(r[0])};
+  };
+  const auto y = [](const std::uint32_t* r) {
+    return std::int64_t{static_cast<std::int32_t>(r[1])};
+  };
+  move_by(actor, {x(record) + x(before) * lasted, y(record) + y(before) * lasted});
+  const bool stay = actor.shown < shown_for;
+  const auto byte = [&](std::uint32_t held, std::uint32_t changed) {
+    return static_cast<std::uint8_t>(stay ? held : changed);
+  };
+  actor.bent = actor.group;
+  actor.table = byte(actor.table, index);
+  actor.stage = byte(actor.stage, move >> kMoveStageShift & kMoveStage);
+  actor.jumped = byte(0, move >> kMoveJumpedShift & 1u);
+  actor.skipped = byte(0, move >> kMoveSkippedShift & 1u);
+  actor.shown = static_cast<std::uint16_t>(stay ? actor.shown + 1 : 1);
+  actor.sample = stay ? actor.sample : move & kMoveSample;
 }
 
 // The transitions out of a sample that cost at most `slack` more than the best, at most sixteen.
@@ -110,19 +139,33 @@ NearTies near_ties(const Sprite& sprite, const ControlMode& mode, std::uint32_t 
   return ties;
 }
 
-// Where the actor would be ten samples after it was led to `to`.
-Vec2 ahead_of(const Sprite& sprite, const Actor& actor, std::uint32_t table,
-              std::uint32_t to) noexcept {
+// Where the actor would be ten samples after it was led to `to`, and how many ticks later.
+struct Outlook {
+  Position position;
+  std::int64_t ticks = 0;
+};
+Outlook ahead_of(const Sprite& sprite, const Actor& actor, std::uint32_t table,
+                 std::uint32_t to) noexcept {
   constexpr int kAhead = 10;
   const Policy policy = make_policy(sprite, actor.mode);
-  Position position = actor.position;
+  Outlook outlook{actor.position};
   for (int k = 0; k < kAhead; ++k) {
     const Sample& s = sprite.samples()[to];
-    position.x = moved(position.x, std::int64_t{s.step_x} * s.duration);
-    position.y = moved(position.y, std::int64_t{s.step_y} * s.duration);
+    outlook.position.x = moved(outlook.position.x, std::int64_t{s.step_x} * s.duration);
+    outlook.position.y = moved(outlook.position.y, std::int64_t{s.step_y} * s.duration);
+    outlook.ticks += s.duration;
     to = next_sample(policy, table, to);
   }
-  return to_pixels(position);
+  return outlook;
+}
+
+// What makes one near tie better than another: room, or speed (px a tick).
+float score(const Actor& actor, const StepWish& wish, const Outlook& outlook) noexcept {
+  if (wish.clearance != nullptr) return wish.clearance(wish.world, to_pixels(outlook.position));
+  const Vec2 way = to_pixels(
+      {moved(outlook.position.x, -actor.position.x), moved(outlook.position.y, -actor.position.y)});
+  const float speed = std::sqrt(way.x * way.x + way.y * way.y) / static_cast<float>(outlook.ticks);
+  return wish.pace == Pace::Fast ? speed : -speed;
 }
 
 // SplitMix64 (Steele, Lea, Flood 2014).
@@ -137,14 +180,15 @@ std::uint32_t choose(const Sprite& sprite, Actor& actor, std::uint32_t table,
                      const StepWish& wish) noexcept {
   const NearTies ties = near_ties(sprite, mode_of(sprite, actor), table, actor.sample, wish.slack);
   if (ties.count == 1) return ties.to[0];
-  if (wish.clearance == nullptr) return ties.to[draw(actor.random) % ties.count];
-  std::uint32_t widest = ties.to[0];
-  float room = wish.clearance(wish.world, ahead_of(sprite, actor, table, widest));
+  if (wish.clearance == nullptr && wish.pace == Pace::Any)
+    return ties.to[draw(actor.random) % ties.count];
+  std::uint32_t best = ties.to[0];
+  float most = score(actor, wish, ahead_of(sprite, actor, table, best));
   for (std::size_t k = 1; k < ties.count; ++k) {
-    const float there = wish.clearance(wish.world, ahead_of(sprite, actor, table, ties.to[k]));
-    if (there > room) widest = ties.to[k], room = there;
+    const float there = score(actor, wish, ahead_of(sprite, actor, table, ties.to[k]));
+    if (there > most) best = ties.to[k], most = there;
   }
-  return widest;
+  return best;
 }
 
 void command(const Sprite& sprite, Actor& actor, Direction direction,
@@ -226,42 +270,38 @@ void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_ra
               {static_cast<float>(dx / distance), static_cast<float>(dy / distance)});
 }
 
-namespace {
+void step(const Sprite& sprite, Actor& actor) noexcept { tick(sprite.impl(), actor); }
 
-// Moves, and tells whether the shown sample is over.
-bool advance(const Sprite& sprite, Actor& actor) noexcept {
-  const Displacement by = displacement(sprite, actor);
-  ++actor.tick;
-  actor.position.x = moved(actor.position.x, by.x);
-  actor.position.y = moved(actor.position.y, by.y);
-  if (actor.shown >= sprite.data().samples[actor.sample].duration) return true;
-  ++actor.shown;
-  actor.jumped = actor.skipped = 0;
-  return false;
-}
-
-}  // namespace
-
-void step(const Sprite& sprite, Actor& actor) noexcept {
-  if (advance(sprite, actor)) {
-    const Policy policy = make_policy(sprite, actor.mode);
-    const std::uint32_t table = table_index(policy, actor.group, actor.stage);
-    show(sprite, actor, table, next_sample(policy, table, actor.sample));
+void step(const Sprite& sprite, std::span<Actor> actors) noexcept {
+  const Sprite::Impl& impl = sprite.impl();
+#ifdef __GNUC__
+  // Records of a large sprite lie beyond the nearest cache; fetching them early hides that.
+  constexpr std::size_t kAhead = 12;
+  const std::size_t fetched = actors.size() - std::min(actors.size(), kAhead);
+  for (std::size_t i = 0; i < fetched; ++i) {
+    const Actor& later = actors[i + kAhead];
+    __builtin_prefetch(impl.ticks[later.mode].record(later.sample, later.group));
+    tick(impl, actors[i]);
   }
-  actor.bent = actor.group;
+  actors = actors.subspan(fetched);
+#endif
+  for (Actor& actor : actors) tick(impl, actor);
 }
 
 void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept {
-  if (advance(sprite, actor)) {
-    const Policy policy = make_policy(sprite, actor.mode);
-    const std::uint32_t table = table_index(policy, actor.group, actor.stage);
-    show(sprite, actor, table, choose(sprite, actor, table, wish));
-  }
+  const Sprite::Impl& impl = sprite.impl();
+  const ControlMode& mode = mode_of(sprite, actor);
+  move_by(actor, displacement(impl, actor));
   actor.bent = actor.group;
+  if (stays(impl, actor)) return;
+  const std::uint32_t table = actor.group * mode.stages + actor.stage;
+  const std::uint32_t next = choose(sprite, actor, table, wish);
+  show(actor, table,
+       detail::make_move(impl.data, mode, actor.group, actor.stage, actor.sample, next));
 }
 
 Vec2 draw_position(const Sprite& sprite, const Actor& actor, float fraction) noexcept {
-  const Displacement by = displacement(sprite, actor);
+  const Displacement by = displacement(sprite.impl(), actor);
   const double x = static_cast<double>(actor.position.x) +
                    static_cast<double>(fraction) * static_cast<double>(by.x);
   const double y = static_cast<double>(actor.position.y) +

@@ -103,7 +103,7 @@ Result<Sprite> load_pack_from(ByteSource source) {
     if (Check bad = read_content(source, content)) return error_of(source, *bad);
     auto impl = std::make_unique<Sprite::Impl>();
     impl->data = std::move(content.data);
-    complete(impl->data);
+    complete(*impl);
     impl->frames = std::move(content.frames);
     impl->fram_offset = content.fram_offset;
     impl->source = std::move(source);

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "file.h"
+#include "ticks.h"
 #include "vsprite/pack.h"
 
 namespace vsprite::detail {
@@ -58,8 +59,8 @@ Finding finding(std::string_view code, std::string_view section, std::uint64_t o
 /// Meaning, not bytes: every index, order and range that playing relies on. The section and the
 /// offset of the finding name the section of a pack; offset is 0.
 Check check_sprite_data(const SpriteData& data);
-/// What is not in a file but follows from it.
-void complete(SpriteData& data) noexcept;
+/// What is not in a file but follows from it. May throw std::bad_alloc.
+void complete(Sprite::Impl& impl);
 /// What a pack asks for beyond that: a picture for every kept sample.
 Check check_picture_sizes(const SpriteData& data);
 
@@ -168,6 +169,7 @@ namespace vsprite {
 
 struct Sprite::Impl {
   SpriteData data;
+  std::vector<detail::TickTable> ticks;    ///< a mode
   detail::ByteSource source;               ///< where the pictures lie
   std::vector<detail::FrameEntry> frames;  ///< empty: a sprite from data alone
   std::uint64_t fram_offset = 0;

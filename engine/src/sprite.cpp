@@ -300,8 +300,10 @@ Check check_sprite_data(const SpriteData& data) {
   return check_modes(data);
 }
 
-void complete(SpriteData& data) noexcept {
-  for (Sample& s : data.samples) s.step_length = step_length(s.step_x, s.step_y);
+void complete(Sprite::Impl& impl) {
+  for (Sample& s : impl.data.samples) s.step_length = step_length(s.step_x, s.step_y);
+  for (const ControlMode& mode : impl.data.modes)
+    impl.ticks.push_back(make_tick_table(impl.data, mode));
 }
 
 Check check_picture_sizes(const SpriteData& data) {
@@ -429,7 +431,7 @@ Result<Sprite> make_sprite(SpriteData data) {
     }
     auto impl = std::make_unique<Sprite::Impl>();
     impl->data = std::move(data);
-    detail::complete(impl->data);
+    detail::complete(*impl);
     return Sprite(std::move(impl));
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, "out of memory for a sprite"};

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
+  control/advice.cpp
   control/bench.cpp
+  control/flip.cpp
   control/joint.cpp
   control/lanes.cpp
   control/solve.cpp

@@ -192,16 +192,18 @@ class JointSolver {
   }
   std::size_t improve_both(std::size_t b) {
     refresh(b);
-    std::size_t changed = improve(problem_.edges, cruising_[b]);
-    if (changed > 0) evaluate(problem_.edges, cruising_[b]);
-    turning_[b].offset = cruising_[b].offset;
-    return changed + improve(problem_.edges, turning_[b]);
+    std::size_t changed = 0;
+    for (Lanes* lanes : {&cruising_[b], &turning_[b]}) {  // turning leads to cruising
+      changed += improve(problem_.edges, *lanes);
+      evaluate(problem_.edges, *lanes);
+      refine(problem_.edges, *lanes);
+    }
+    return changed;
   }
   void evaluate_both(std::size_t b) {
     refresh(b);
     evaluate(problem_.edges, cruising_[b]);
     evaluate(problem_.edges, turning_[b]);
-    turning_[b].offset = cruising_[b].offset;
   }
 
   static std::vector<Lanes> rounded(const std::vector<Lanes>& lanes) {

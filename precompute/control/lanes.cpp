@@ -7,7 +7,11 @@
 #include "control/lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <memory>
 
 #include "vsprite/sprite.h"
 
@@ -24,183 +28,321 @@ namespace {
 
 using Vector = float __attribute__((vector_size(4 * kLanes)));
 using Mask = std::int32_t __attribute__((vector_size(4 * kLanes)));
-using Wide = double __attribute__((vector_size(8 * kLanes), aligned(8)));
+using Halves = std::int64_t __attribute__((vector_size(4 * kLanes)));
+using Wide = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
+using Loose = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
 
-constexpr int kMaxSweeps = 10000;  // never met: a policy is improved 10..20 times
-constexpr double kTie = 1e-6;      // share of the value within which choices are equally good
+constexpr int kMaxSweeps = 10000;        // never met: a policy is improved 10..20 times
+constexpr std::uint32_t kMostSeen = 24;  // choices that are remembered of a row
+constexpr double kTie = 1e-6;            // share of the value within which choices are equally good
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+#define VSPRITE_INLINE inline __attribute__((always_inline))
+
+// True if any lane of a mask is set.
+VSPRITE_INLINE bool any_of(const Mask& mask) {
+  const Halves halves = reinterpret_cast<Halves>(mask);
+  return (halves[0] | halves[1] | halves[2] | halves[3]) != 0;
+}
+
+// Storage that vectors may point into.
+class Aligned {
+ public:
+  explicit Aligned(std::size_t count) : bytes_(new std::byte[count * sizeof(Vector) + 63]) {}
+  Vector* get() {
+    const auto at = reinterpret_cast<std::uintptr_t>(bytes_.get());
+    return reinterpret_cast<Vector*>((at + 63) / 64 * 64);
+  }
+
+ private:
+  std::unique_ptr<std::byte[]> bytes_;
+};
 
 // Everything a sweep touches, as plain pointers.
 struct SweepView {
-  const std::uint32_t* row_start;
+  std::size_t count;
+  const std::uint32_t *first, *last;  // edges of a row
   const std::uint32_t* to;
   const float* price;
-  std::size_t count;
-  const Vector* arrive;
+  const Loose* arrive;
   const std::uint8_t* exits;  // or null
-  Vector discount, shift;     // shift: (1 - b) offset
-  Vector* value;              // V - offset
-  Vector* go;                 // c_j + b (V'_j - offset)
-  std::uint32_t* policy;
+  const Wide* values;         // V
+  const Wide* beyond;         // or null
+  const Wide* offset;
+  double discount;
+  Vector* value;  // V - offset
+  Vector* go;     // c_j + b (V'_j - offset)
+  std::uint32_t* chosen;
+  float* chosen_price;
+  std::uint8_t* changed;  // a row: lanes that chose anew
 };
 
-// The cheapest edge of a row in one lane; of equals the first.
-std::uint32_t cheapest_edge(const SweepView& v, std::size_t i, std::size_t lane) {
-  const float* go = reinterpret_cast<const float*>(v.go);
-  float best = kInfinite;
-  std::uint32_t edge = kNoEdge;
-  for (std::uint32_t e = v.row_start[i]; e < v.row_start[i + 1]; ++e) {
-    const float f = v.price[e] + go[v.to[e] * kLanes + lane];
-    if (f < best) best = f, edge = e;
+// Lanes of an exit byte, as a mask.
+VSPRITE_INLINE void lanes_of(std::uint8_t bits, Mask& out) {
+  const Mask bit = {1, 2, 4, 8, 16, 32, 64, 128};
+  out = ((Mask{} + static_cast<std::int32_t>(bits)) & bit) != 0;
+}
+
+// The cheapest edge of a row in every lane; of equals the first of the even or of the odd ones.
+struct RowBest {
+  Vector best;
+  Mask edge;
+};
+VSPRITE_INLINE void best_of_row(const SweepView& v, std::uint32_t first, std::uint32_t last,
+                                RowBest& out) {
+  Vector best = Vector{} + kInfinite, other = best;
+  Mask edge = {}, other_edge = {}, at = {};
+  std::uint32_t e = first;
+  for (; e + 1 < last; e += 2) {
+    const Vector f = v.go[v.to[e]] + v.price[e], g = v.go[v.to[e + 1]] + v.price[e + 1];
+    edge = f < best ? at : edge;
+    best = f < best ? f : best;
+    other_edge = g < other ? at : other_edge;
+    other = g < other ? g : other;
+    at += 2;
   }
-  return edge;
+  if (e < last) {
+    const Vector f = v.go[v.to[e]] + v.price[e];
+    edge = f < best ? at : edge;
+    best = f < best ? f : best;
+  }
+  other_edge += 1;
+  out.edge = other < best ? other_edge : edge;
+  out.best = other < best ? other : best;
+}
+
+// The float images of V and of the cost to go.
+VSPRITE_INLINE void read_values(const SweepView& v) {
+  const Wide offset = *v.offset;
+  const Vector discount = Vector{} + static_cast<float>(v.discount);
+  for (std::size_t j = 0; j < v.count; ++j) {
+    const Vector own = __builtin_convertvector(v.values[j] - offset, Vector);
+    Vector behind = own;
+    if (v.exits != nullptr && v.exits[j] != 0) {
+      const Vector past = __builtin_convertvector(v.beyond[j] - offset, Vector);
+      Mask exits;
+      lanes_of(v.exits[j], exits);
+      behind = exits ? past : own;
+    }
+    v.value[j] = own;
+    v.go[j] = v.arrive[j] + discount * behind;
+  }
 }
 
 // Lanes whose choice the minimum of the row beats clearly get a new one. What was chosen is worth
 // less now than when it was evaluated, if anything, so most rows end at the first test.
-std::size_t choose(const SweepView& v, std::size_t i, const float* best, const float* before) {
-  const float* go = reinterpret_cast<const float*>(v.go);
-  std::size_t changed = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const float slack = 2e-6f * (1 + std::fabs(best[lane]));
-    std::uint32_t& edge = v.policy[i * kLanes + lane];
-    if (edge != kNoEdge) {
-      if (!(best[lane] < before[lane] - slack)) continue;
-      if (!(best[lane] < v.price[edge] + go[v.to[edge] * kLanes + lane] - slack)) continue;
-    }
-    edge = cheapest_edge(v, i, lane);
-    ++changed;
-  }
-  return changed;
-}
-
 VSPRITE_CLONES std::size_t sweep(const SweepView& v) {
+  read_values(v);
+  const Vector discount = Vector{} + static_cast<float>(v.discount);
+  const Vector shift =
+      __builtin_convertvector((1 - v.discount) * *v.offset, Vector);  // (1 - b) offset
   std::size_t changed = 0;
-  const Vector infinite = Vector{} + kInfinite;
   for (std::size_t i = v.count; i-- > 0;) {
-    const std::uint32_t first = v.row_start[i], last = v.row_start[i + 1];
+    v.changed[i] = 0;
+    const std::uint32_t first = v.first[i], last = v.last[i];
     if (first == last) continue;
-    Vector best = infinite, other = infinite;
-    std::uint32_t e = first;
-    for (; e + 1 < last; e += 2) {
-      const Vector f = v.go[v.to[e]] + v.price[e], g = v.go[v.to[e + 1]] + v.price[e + 1];
-      best = f < best ? f : best;
-      other = g < other ? g : other;
-    }
-    if (e < last) {
-      const Vector f = v.go[v.to[e]] + v.price[e];
-      best = f < best ? f : best;
-    }
-    best = other < best ? other : best;
-    const Vector before = v.value[i] + v.shift;
-    const Mask better = best < before - 2e-6f;
-    std::int32_t any = v.policy[i * kLanes] == kNoEdge;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) any |= better[lane];
-    if (any == 0) continue;
-    float best_of[kLanes], before_of[kLanes];
+    RowBest row;
+    best_of_row(v, first, last, row);
+    const Vector before = v.value[i] + shift;
+    const bool fresh = v.chosen[i * kLanes] == kNoSample;
+    if (!fresh && !any_of(row.best < before - 2e-6f)) continue;
+    unsigned bits = 0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      best_of[lane] = best[lane];
-      before_of[lane] = before[lane];
+      const float best = row.best[lane], slack = 2e-6f * (1 + std::fabs(best));
+      const std::size_t at = i * kLanes + lane;
+      if (!fresh) {
+        if (!(best < before[lane] - slack)) continue;
+        const float* go = reinterpret_cast<const float*>(v.go + v.chosen[at]);
+        if (!(best < v.chosen_price[at] + go[lane] - slack)) continue;
+      }
+      const std::uint32_t e = first + static_cast<std::uint32_t>(row.edge[lane]);
+      v.chosen[at] = v.to[e];
+      v.chosen_price[at] = v.price[e];
+      bits |= 1u << lane;
     }
-    const bool fresh = v.policy[i * kLanes] == kNoEdge;
-    changed += choose(v, i, best_of, before_of);
-    const Vector now = fresh ? best : best < before ? best : before;
-    const Vector value = now - v.shift;
-    const Vector go = v.arrive[i] + v.discount * value;
+    v.changed[i] = static_cast<std::uint8_t>(bits);
+    changed += static_cast<std::size_t>(std::popcount(bits));
+    const Vector now = fresh ? row.best : row.best < before ? row.best : before;
+    const Vector value = now - shift, go = v.arrive[i] + discount * value;
     v.value[i] = value;
     if (v.exits == nullptr || v.exits[i] == 0) {
       v.go[i] = go;
     } else {
-      for (std::size_t lane = 0; lane < kLanes; ++lane)
-        if ((v.exits[i] >> lane & 1) == 0) v.go[i][lane] = go[lane];
+      Mask exits;
+      lanes_of(v.exits[i], exits);
+      v.go[i] = exits ? v.go[i] : go;
     }
   }
   return changed;
 }
 
-// Storage that the vectors of a view may point into.
-struct Aligned {
-  explicit Aligned(std::size_t count) : bytes(count * sizeof(Vector) + 63) {}
-  Vector* get() {
-    const auto at = reinterpret_cast<std::uintptr_t>(bytes.data());
-    return reinterpret_cast<Vector*>((at + 63) / 64 * 64);
-  }
-  std::vector<std::uint8_t> bytes;
+// What best_of_rows reads and writes.
+struct RowsView {
+  const Edges& edges;
+  const double* go;
+  const double* offset;  // about the least of `go`
+  Vector* near;          // (N) go - offset
+  Vector* f;             // one row
+  double* values;
+  std::uint32_t* to;
 };
 
-// One lane's policy as a chain: where each sample leads, and what that costs.
-struct Chain {
-  std::vector<std::uint32_t> to;
-  std::vector<double> cost;
-  std::vector<double> value;
-  std::vector<std::uint8_t> state;
-  std::vector<std::uint32_t> walk;
-};
-enum : std::uint8_t { kUnseen, kOnWalk, kKnown };
-
-// Follows the chain from every unknown sample until a known one, or until the walk meets itself:
-// then on the cycle i_0 .. i_(m-1)
-//     V(i_0) = sum_q b^q c(i_q) / (1 - b^m),
-// and everything before follows by V(i) = c(i) + b V(to(i)).
-void evaluate_chain(Chain& chain, double discount) {
-  for (std::uint32_t start = 0; start < chain.to.size(); ++start) {
-    if (chain.state[start] == kKnown) continue;
-    chain.walk.clear();
-    std::uint32_t i = start;
-    while (chain.state[i] == kUnseen) {
-      chain.state[i] = kOnWalk;
-      chain.walk.push_back(i);
-      i = chain.to[i];
+// The row in single precision first, whose error is known; what may be least or a near tie of it is
+// looked at again in double. Of near ties the first, which is the lowest sample, is taken.
+VSPRITE_CLONES void row_minima(const RowsView& v) {
+  const std::size_t n = v.edges.size();
+  const Wide offset = *reinterpret_cast<const Wide*>(v.offset);
+  const Vector about = __builtin_convertvector(offset, Vector);
+  const Wide* wide = reinterpret_cast<const Wide*>(v.go);
+  for (std::size_t j = 0; j < n; ++j) v.near[j] = __builtin_convertvector(wide[j] - offset, Vector);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint32_t first = v.edges.row_start[i], last = v.edges.row_start[i + 1];
+    const std::uint32_t* to = v.edges.to.data() + first;
+    const float* price = v.edges.price.data() + first;
+    const std::size_t count = last - first;
+    double least[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      least[lane] = std::numeric_limits<double>::infinity();
+      v.to[i * kLanes + lane] = kNoSample;
     }
-    if (chain.state[i] == kOnWalk) {
-      double sum = 0, power = 1;
-      std::uint32_t q = i;
-      do {
-        sum += power * chain.cost[q];
-        power *= discount;
-        q = chain.to[q];
-      } while (q != i);
-      chain.value[i] = sum / (1 - power);
-      chain.state[i] = kKnown;
+    Vector best = Vector{} + kInfinite;
+    for (std::size_t e = 0; e < count; ++e) {
+      v.f[e] = v.near[to[e]] + price[e];
+      best = v.f[e] < best ? v.f[e] : best;
     }
-    for (std::size_t k = chain.walk.size(); k-- > 0;) {
-      const std::uint32_t w = chain.walk[k];
-      if (chain.state[w] == kKnown) continue;
-      chain.value[w] = chain.cost[w] + discount * chain.value[chain.to[w]];
-      chain.state[w] = kKnown;
-    }
+    const Vector size = best < 0.0f ? -best : best;
+    const Vector margin =
+        best + 2e-6f * (size + 1.0f) + 1.01f * static_cast<float>(kTie) * (size + about + 1.0f);
+    const auto each_near = [&](const auto& look) __attribute__((always_inline)) {
+      for (std::size_t e = 0; e < count; ++e) {
+        const Mask hit = v.f[e] <= margin;
+        if (!any_of(hit)) continue;
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+          if (hit[lane] != 0)
+            look(e, lane, v.go[to[e] * kLanes + lane] + static_cast<double>(price[e]));
+        }
+      }
+    };
+    each_near(
+        [&](std::size_t, std::size_t lane, double f) { least[lane] = std::min(least[lane], f); });
+    each_near([&](std::size_t e, std::size_t lane, double f) {
+      std::uint32_t& chosen = v.to[i * kLanes + lane];
+      if (chosen == kNoSample && f <= least[lane] + kTie * (least[lane] + 1)) chosen = to[e];
+    });
+    for (std::size_t lane = 0; lane < kLanes; ++lane) v.values[i * kLanes + lane] = least[lane];
   }
 }
 
-// Eight doubles at a time; see best_of_rows.
-VSPRITE_CLONES void row_minima(const Edges& edges, const double* go_of, double* values,
-                               std::uint32_t* to) {
-  const Wide* go = reinterpret_cast<const Wide*>(go_of);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const std::uint32_t first = edges.row_start[i], last = edges.row_start[i + 1];
-    Wide best = Wide{} + std::numeric_limits<double>::infinity();
-    for (std::uint32_t e = first; e < last; ++e) {
-      const Wide f = go[edges.to[e]] + static_cast<double>(edges.price[e]);
-      best = f < best ? f : best;
-    }
-    const Wide limit = best + kTie * (best + 1);
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      values[i * kLanes + lane] = best[lane];
-      to[i * kLanes + lane] = kNoSample;
-    }
-    std::size_t open = first < last ? kLanes : 0;
-    for (std::uint32_t e = first; open > 0 && e < last; ++e) {
-      const Wide f = go[edges.to[e]] + static_cast<double>(edges.price[e]);
-      const auto hit = f <= limit;
-      std::int64_t any = 0;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) any |= hit[lane];
-      if (any == 0) continue;
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        std::uint32_t& chosen = to[i * kLanes + lane];
-        if (hit[lane] != 0 && chosen == kNoSample) chosen = edges.to[e], --open;
-      }
+std::size_t sweep_over(Lanes& lanes, std::span<const std::uint32_t> first,
+                       std::span<const std::uint32_t> last, const std::vector<std::uint32_t>& to,
+                       const std::vector<float>& price, std::vector<std::uint8_t>& changed) {
+  const std::size_t n = first.size();
+  Aligned value(n), go(n);
+  changed.resize(n);
+  const auto wide = [](const double* from) { return reinterpret_cast<const Wide*>(from); };
+  return sweep({n, first.data(), last.data(), to.data(), price.data(),
+                reinterpret_cast<const Loose*>(lanes.arrive.data()),
+                lanes.exits.empty() ? nullptr : lanes.exits.data(), wide(lanes.values.data()),
+                lanes.beyond != nullptr ? wide(lanes.beyond->data()) : nullptr,
+                wide(lanes.offset.data()), lanes.discount, value.get(), go.get(), lanes.to.data(),
+                lanes.price.data(), changed.data()});
+}
+
+// Adds the new choices of a row to those seen; a full row keeps what it has.
+void remember(Lanes& lanes, std::size_t i, unsigned bits) {
+  Lanes::Seen& seen = lanes.seen;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if ((bits >> lane & 1u) == 0) continue;
+    const std::uint32_t to = lanes.to[i * kLanes + lane];
+    const auto first = seen.to.begin() + seen.first[i], last = seen.to.begin() + seen.last[i];
+    if (seen.last[i] - seen.first[i] == kMostSeen || std::find(first, last, to) != last) continue;
+    seen.to[seen.last[i]] = to;
+    seen.price[seen.last[i]++] = lanes.price[i * kLanes + lane];
+  }
+}
+
+// Follows every choice to a known value, or until the walk meets itself: then on the cycle
+// i_0 .. i_(m-1)
+//     V(i_0) = sum_q b^q c(i_q) / (1 - b^m),
+// and everything before follows by V(i) = c(i) + b V(to(i)). From the last sample to the first, so
+// that nearly every walk is one step long.
+class Evaluation {
+ public:
+  explicit Evaluation(Lanes& lanes) : lanes_(lanes), state_(lanes.to.size(), kUnseen) {}
+
+  void run() {
+    for (std::size_t at = lanes_.to.size(); at-- > 0;) {
+      if (state_[at] == kUnseen) follow(at);
     }
   }
+
+ private:
+  enum : std::uint8_t { kUnseen, kOnWalk, kKnown };
+
+  std::size_t target(std::size_t at) const {
+    return std::size_t{lanes_.to[at]} * kLanes + at % kLanes;
+  }
+  double cost(std::size_t at) const {
+    return static_cast<double>(lanes_.price[at]) + static_cast<double>(lanes_.arrive[target(at)]);
+  }
+  bool leaves(std::size_t at) const {
+    return !lanes_.exits.empty() && (lanes_.exits[lanes_.to[at]] >> at % kLanes & 1) != 0;
+  }
+  void set(std::size_t at, double behind) {
+    lanes_.values[at] = cost(at) + lanes_.discount * behind;
+    state_[at] = kKnown;
+  }
+  // True if the value is known now without a walk.
+  bool settle(std::size_t at) {
+    if (lanes_.to[at] == kNoSample) {
+      lanes_.values[at] = std::numeric_limits<double>::infinity();
+      state_[at] = kKnown;
+    } else if (leaves(at)) {
+      set(at, (*lanes_.beyond)[target(at)]);
+    } else if (state_[target(at)] == kKnown) {
+      set(at, lanes_.values[target(at)]);
+    }
+    return state_[at] == kKnown;
+  }
+  void follow(std::size_t at) {
+    walk_.clear();
+    while (state_[at] == kUnseen && !settle(at)) {
+      state_[at] = kOnWalk;
+      walk_.push_back(at);
+      at = target(at);
+    }
+    if (state_[at] == kOnWalk) close(at);
+    for (std::size_t k = walk_.size(); k-- > 0;) {
+      if (state_[walk_[k]] != kKnown) set(walk_[k], lanes_.values[target(walk_[k])]);
+    }
+  }
+  void close(std::size_t at) {
+    double sum = 0, power = 1;
+    std::size_t q = at;
+    do {
+      sum += power * cost(q);
+      power *= lanes_.discount;
+      q = target(q);
+    } while (q != at);
+    lanes_.values[at] = sum / (1 - power);
+    state_[at] = kKnown;
+  }
+
+  Lanes& lanes_;
+  std::vector<std::uint8_t> state_;
+  std::vector<std::size_t> walk_;
+};
+
+// The least of every lane, over rows that are not empty.
+void least_of_lanes(const Edges& edges, const LaneDoubles& values, double* least) {
+  std::fill_n(least, kLanes, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (edges.row_start[i] == edges.row_start[i + 1]) continue;
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+      least[lane] = std::min(least[lane], values[i * kLanes + lane]);
+  }
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if (!std::isfinite(least[lane])) least[lane] = 0;
 }
 
 }  // namespace
@@ -239,71 +381,40 @@ Edges make_edges(const CostTable& costs, std::span<const float> skip_costs,
 }
 
 void start(const Edges& edges, Lanes& lanes) {
-  lanes.values.assign(edges.size() * kLanes, 0);
-  lanes.policy.assign(edges.size() * kLanes, kNoEdge);
+  const std::size_t n = edges.size();
+  lanes.values.assign(n * kLanes, 0);
+  lanes.to.assign(n * kLanes, kNoSample);
+  lanes.price.assign(n * kLanes, 0);
+  lanes.offset.fill(0);
+  Lanes::Seen& seen = lanes.seen;
+  seen.first.resize(n);
+  for (std::size_t i = 0; i < n; ++i) seen.first[i] = static_cast<std::uint32_t>(i) * kMostSeen;
+  seen.last = seen.first;
+  seen.to.resize(n * kMostSeen);
+  seen.price.resize(n * kMostSeen);
 }
 
 std::size_t improve(const Edges& edges, Lanes& lanes) {
-  const std::size_t n = edges.size();
-  Aligned arrive(n), value(n), go(n);
-  SweepView view{edges.row_start.data(),
-                 edges.to.data(),
-                 edges.price.data(),
-                 n,
-                 arrive.get(),
-                 lanes.exits.empty() ? nullptr : lanes.exits.data(),
-                 Vector{} + static_cast<float>(lanes.discount),
-                 Vector{},
-                 value.get(),
-                 go.get(),
-                 lanes.policy.data()};
-  for (std::size_t lane = 0; lane < kLanes; ++lane)
-    view.shift[lane] = static_cast<float>((1 - lanes.discount) * lanes.offset[lane]);
-  std::copy(lanes.arrive.begin(), lanes.arrive.end(), reinterpret_cast<float*>(arrive.get()));
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::size_t at = j * kLanes + lane;
-      const bool exits = view.exits != nullptr && (view.exits[j] >> lane & 1) != 0;
-      const double behind = exits ? (*lanes.beyond)[at] : lanes.values[at];
-      view.value[j][lane] = static_cast<float>(lanes.values[at] - lanes.offset[lane]);
-      view.go[j][lane] = lanes.arrive[at] + static_cast<float>(lanes.discount) *
-                                                static_cast<float>(behind - lanes.offset[lane]);
-    }
-  }
-  return sweep(view);
+  const std::span rows(edges.row_start);
+  std::vector<std::uint8_t> changed;
+  const std::size_t count =
+      sweep_over(lanes, rows.first(edges.size()), rows.subspan(1), edges.to, edges.price, changed);
+  for (std::size_t i = 0; i < changed.size(); ++i)
+    if (changed[i] != 0) remember(lanes, i, changed[i]);
+  return count;
 }
 
 void evaluate(const Edges& edges, Lanes& lanes) {
-  const std::size_t n = edges.size();
-  Chain chain;
-  chain.to.resize(n);
-  chain.cost.resize(n);
-  chain.value.resize(n);
-  chain.state.resize(n);
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t edge = lanes.policy[i * kLanes + lane];
-      if (edge == kNoEdge) {
-        chain.value[i] = std::numeric_limits<double>::infinity();
-        chain.state[i] = kKnown;
-        continue;
-      }
-      const std::uint32_t j = edges.to[edge];
-      const std::size_t at = j * kLanes + lane;
-      chain.to[i] = j;
-      chain.cost[i] =
-          static_cast<double>(edges.price[edge]) + static_cast<double>(lanes.arrive[at]);
-      const bool leaves = !lanes.exits.empty() && (lanes.exits[j] >> lane & 1) != 0;
-      chain.state[i] = leaves ? kKnown : kUnseen;
-      if (leaves) chain.value[i] = chain.cost[i] + lanes.discount * (*lanes.beyond)[at];
-    }
-    evaluate_chain(chain, lanes.discount);
-    double lowest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < n; ++i) {
-      lanes.values[i * kLanes + lane] = chain.value[i];
-      lowest = std::min(lowest, chain.value[i]);
-    }
-    lanes.offset[lane] = std::isfinite(lowest) ? lowest : 0;
+  Evaluation(lanes).run();
+  least_of_lanes(edges, lanes.values, lanes.offset.data());
+}
+
+void refine(const Edges& edges, Lanes& lanes) {
+  const Lanes::Seen& seen = lanes.seen;
+  std::vector<std::uint8_t> changed;
+  for (int k = 0; k < kMaxSweeps; ++k) {
+    if (sweep_over(lanes, seen.first, seen.last, seen.to, seen.price, changed) == 0) break;
+    evaluate(edges, lanes);
   }
 }
 
@@ -311,14 +422,22 @@ void solve_lanes(const Edges& edges, Lanes& lanes) {
   for (int k = 0; k < kMaxSweeps; ++k) {
     if (improve(edges, lanes) == 0) break;
     evaluate(edges, lanes);
+    refine(edges, lanes);
   }
 }
 
 void best_of_rows(const Edges& edges, const LaneDoubles& go, LaneDoubles& values,
                   std::vector<std::uint32_t>& to) {
-  values.resize(edges.size() * kLanes);
-  to.resize(edges.size() * kLanes);
-  row_minima(edges, go.data(), values.data(), to.data());
+  const std::size_t n = edges.size();
+  values.resize(n * kLanes);
+  to.resize(n * kLanes);
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    longest = std::max<std::size_t>(longest, edges.row_start[i + 1] - edges.row_start[i]);
+  Aligned near(n), row(longest);
+  double offset[kLanes];
+  least_of_lanes(edges, go, offset);
+  row_minima({edges, go.data(), offset, near.get(), row.get(), values.data(), to.data()});
 }
 
 }  // namespace vsprite

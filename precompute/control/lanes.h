@@ -8,13 +8,15 @@
 // The next sample follows from the choice alone, so a policy is a functional graph: every sample
 // runs into one cycle, on which V is a geometric sum. A policy is therefore evaluated exactly in
 // O(N), whatever b (Howard), and improved by sweeps from the last sample to the first, since a film
-// runs forward and values travel backwards. The eight problems lie in the lanes of one vector. Each
-// lane is computed by itself in IEEE single precision: the same bits with any instruction set.
+// runs forward and values travel backwards. Between two sweeps over all edges the problem is solved
+// on those edges alone that were ever chosen: a few a row, so that sweeping them costs next to
+// nothing (column generation, as in linear programming). The eight problems lie in the lanes of one
+// vector. Each lane is computed by itself in IEEE single precision: the same bits with any
+// instruction set.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -23,7 +25,6 @@
 namespace vsprite {
 
 inline constexpr std::size_t kLanes = 8;
-inline constexpr std::uint32_t kNoEdge = std::numeric_limits<std::uint32_t>::max();
 
 /// The transitions that a mode may take, and their prices.
 struct Edges {
@@ -54,16 +55,26 @@ struct Lanes {
   const LaneDoubles* beyond = nullptr;
   std::array<double, kLanes> offset{};  ///< about V; sweeps look at V - offset, which keeps digits
 
-  LaneDoubles values;                 ///< V; +inf where a row is empty
-  std::vector<std::uint32_t> policy;  ///< (N, kLanes) edge, kNoEdge at first
+  LaneDoubles values;                        ///< V; +inf where a row is empty
+  std::vector<std::uint32_t> to;             ///< (N, kLanes) the choice; kNoSample at first
+  std::vector<float> price;                  ///< (N, kLanes) of the choice
+  struct Seen {                              ///< every choice that a full sweep made, a few a row
+    std::vector<std::uint32_t> first, last;  ///< (N) into the two below
+    std::vector<std::uint32_t> to;
+    std::vector<float> price;
+  } seen;
 };
 /// `lanes.arrive` is due; values become 0.
 void start(const Edges& edges, Lanes& lanes);
-/// One sweep: every choice becomes the best for what is known, in place. Returns how many changed.
+/// One sweep over all edges: every choice becomes the best for what is known, in place. Returns how
+/// many changed.
 std::size_t improve(const Edges& edges, Lanes& lanes);
-/// V of the policy as it stands, exactly.
+/// V of the choices as they stand, exactly.
 void evaluate(const Edges& edges, Lanes& lanes);
-/// Sweeps and evaluations until no choice changes.
+/// Sweeps over the choices seen so far and evaluations, until none changes: an optimum of a graph
+/// of a tenth of the edges, which improve() then has little to add to.
+void refine(const Edges& edges, Lanes& lanes);
+/// All three until no choice among all edges changes.
 void solve_lanes(const Edges& edges, Lanes& lanes);
 
 /// min_j [p_ij + g_j] for (N, kLanes) g in double, its minimiser `to` (of near ties, within 1e-6 of

@@ -206,6 +206,12 @@ void add_stage_options(Row& t) {
          "of a run of near-identical jumps keep the cheapest only", kTransitions, "on|off");
   t.real("near-miss", "D", &Settings::near_miss, 0, 10, false,
          "also take pairs this far beyond the threshold, at three times their price", kTransitions);
+  t.text("flip", "HOW", &Settings::flip,
+         "with --mirror, how it turns round: as filmed, by a cut to its mirror image, or that only "
+         "where the film holds no turn",
+         kTransitions, "film|cut|auto");
+  t.real("flip-price", "D", &Settings::flip_price, 0, 1, false,
+         "difference that such a cut counts as; 1 = the threshold", kTransitions);
   t.text("directions", "N", &Settings::directions,
          "headings to serve; auto = those of the eight that the film holds", kSolve,
          "auto|2|4|8|16|32");
@@ -266,8 +272,8 @@ void add_use_options(Row& t) {
   t.whole("frames", "N", &Settings::frames, 0, 1000000000,
           "ticks to run; 0 = 12 s (steer), for ever (play, label)", " steer play label ");
   t.text("mode", "MODE", &Settings::mode,
-         "which solved tables; default: the pack's own (steer), paper (dump)", " steer dump play ",
-         "paper|responsive");
+         "which solved tables; default: the pack's own (steer), paper (dump)",
+         " steer dump play report ", "paper|responsive");
   t.text("trace", "FILE", &Settings::trace, "one line a tick, as CSV", " steer path ");
   t.flag("bench", &Settings::bench,
          "all modes over a grid of settings, ten random runs each; -o FILE.svg draws the curves",
@@ -309,11 +315,11 @@ void add_path_options(Row& t) {
 
 void add_common_options(Row& t) {
   t.text("output", "FILE", &Settings::output, "the file to write",
-         " segment build pack dump play steer path ")
+         " segment build pack dump play steer path report ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",
-         " segment label train transitions solve pack build play dump doctor ");
+         " segment label train transitions solve pack build play dump doctor report ");
   t.list("force", "STAGE", &Settings::force, "run this stage again, whatever stands there",
          " segment train transitions solve pack build play ",
          "segment|train|transitions|solve|pack|all");

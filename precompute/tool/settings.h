@@ -46,6 +46,8 @@ struct Settings {
   std::string features = "raw";
   std::string minima = "off";
   double near_miss = 0;
+  std::string flip = "auto";
+  double flip_price = 0.4;
   double alpha = 0.97;
   double w1 = 0.6;
   double cap = 0.8;

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "control/flip.h"
 #include "tool/cast.h"
 #include "tool/cast_file.h"
 #include "tool/tiles.h"
@@ -135,6 +136,8 @@ Result<StageKey> transitions_key(StageRun& run) {
        {"min-back", run.settings.min_back},
        {"minima", run.settings.minima},
        {"near-miss", run.settings.near_miss},
+       {"flip", run.settings.flip},
+       {"flip-price", run.settings.flip_price},
        {"features", trained_scale(run.project) == FeatureScale::PerArea ? "per-area" : "raw"}},
       {"sprites", "classifier.toml"});
 }
@@ -163,6 +166,19 @@ Result<std::vector<PairDistance>> find_pairs(StageRun& run, const FeatureSet& se
   return accepted_pairs(finder, run.settings.jobs, store, &compared, run.listener.progress);
 }
 
+// Whether mirror images are joined at a set price; `auto`: where the film holds no turn, or without
+// them (null) no endless run.
+Result<bool> wants_flips(const Settings& settings, std::span<const SampleRow> rows,
+                         const CostTable* costs) {
+  const bool mirrored = !rows.empty() && rows.back().mirror_of >= 0;
+  if (settings.flip == "cut" && !mirrored)
+    return Error{
+        ErrorCode::BadSetting,
+        "transitions: flip is cut, but the samples are not mirrored; use --mirror with it"};
+  if (!mirrored || settings.flip != "auto") return settings.flip == "cut";
+  return costs == nullptr || !turns_by_itself(rows, costs->kept);
+}
+
 Result<Json> find_transitions(StageRun& run) {
   const auto classifier = run.project.classifier();
   if (!classifier) return classifier.error();
@@ -177,6 +193,15 @@ Result<Json> find_transitions(StageRun& run) {
   if (!pairs) return pairs.error();
   file.pairs = std::move(*pairs);
   auto costs = make_cost_table(set, file.pairs, config, stats, &*classifier);
+  const auto flips = wants_flips(run.settings, set.rows, costs ? &*costs : nullptr);
+  if (!flips) return flips.error();
+  if (*flips) {
+    TransitionStats afresh;
+    afresh.compared = stats.compared;
+    stats = afresh;
+    add_flips(set.rows, static_cast<float>(run.settings.flip_price), file.pairs);
+    costs = make_cost_table(set, file.pairs, config, stats, &*classifier);
+  }
   if (!costs) return Error{costs.error().code, run.project.folder() + ": " + costs.error().message};
   file.costs = std::move(*costs);
   file.skip_costs = skip_costs(set, *classifier, file.costs.kept);
@@ -199,6 +224,7 @@ Result<Json> find_transitions(StageRun& run) {
               {"near_misses", stats.near_misses},
               {"transitions", stats.transitions},
               {"jumps_per_second", stats.jumps_per_second},
+              {"flips", *flips},
               {"kept", stats.kept},
               {"lost_clip_end", stats.lost_clip_end},
               {"lost_dead_end", stats.lost_dead_end},

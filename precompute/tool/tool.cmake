@@ -12,6 +12,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/cast_file.cpp
   tool/control.cpp
   tool/files.cpp
+  tool/film_report.cpp
   tool/keyed.cpp
   tool/label_store.cpp
   tool/label_session.cpp
@@ -44,6 +45,7 @@ add_executable(vsprite
   tool/commands/parse.cpp
   tool/commands/train.cpp
   tool/commands/path.cpp
+  tool/commands/report.cpp
 )
 target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)
 if(TARGET vsprite_window)

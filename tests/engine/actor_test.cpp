@@ -8,6 +8,7 @@
 #include <cstring>
 #include <random>
 
+#include "support/plain_actor.h"
 #include "support/tiny_sprite.h"
 #include "vsprite/policy.h"
 
@@ -240,6 +241,54 @@ TEST(Actor, OfNearTiesTheOneWithMostRoomIsTaken) {
   EXPECT_LT(to_pixels(actor.position).x, -100);
 }
 
+// Two loops to the right, of 30 and 90 px/s; from every sample one may change to the other.
+SpriteData two_paces() {
+  SpriteData data;
+  data.name = "two paces";
+  constexpr std::uint32_t kLoop = 12;
+  data.row_start.assign(1, 0);
+  ControlMode mode;
+  mode.name = "paper";
+  mode.alpha = 0.9f;
+  mode.cap = 1;
+  for (std::uint32_t i = 0; i < 2 * kLoop; ++i) {
+    Sample s;
+    s.velocity = {i < kLoop ? 30.0f : 90.0f, 0};
+    s.step_x = step_per_tick(s.velocity.x, 30, 1);
+    s.clip = i / kLoop;
+    s.kept = 1;
+    data.samples.push_back(s);
+    const std::uint32_t own = i / kLoop * kLoop, after = (i + 1) % kLoop;
+    std::vector<Transition> row{{own + after, after == 0 ? 0.1f : 0.0f},
+                                {kLoop - own + after, 0.15f}};
+    std::sort(row.begin(), row.end(), [](auto& a, auto& b) { return a.to < b.to; });
+    data.transitions.insert(data.transitions.end(), row.begin(), row.end());
+    data.row_start.push_back(static_cast<std::uint32_t>(data.transitions.size()));
+  }
+  for (std::size_t k = 0; k < mode.tables() * 2 * kLoop; ++k) {
+    const auto i = static_cast<std::uint32_t>(k % (2 * kLoop));
+    mode.next.push_back(i / kLoop * kLoop + (i + 1) % kLoop);
+  }
+  mode.go.assign(mode.next.size(), 1);
+  data.modes.push_back(mode);
+  return data;
+}
+
+TEST(Actor, ThePaceIsPreferredWhereTheFilmLeavesAChoice) {
+  const Sprite sprite = *make_sprite(two_paces());
+  for (const Pace pace : {Pace::Slow, Pace::Fast}) {
+    for (const std::uint32_t start : {3u, 15u}) {
+      Actor actor = make_actor(sprite);
+      actor.sample = start;
+      for (int tick = 0; tick < 100; ++tick) step(sprite, actor, {.slack = 0.2f, .pace = pace});
+      EXPECT_EQ(actor.sample >= 12, pace == Pace::Fast) << "from " << start;
+      actor.sample = start;
+      for (int tick = 0; tick < 100; ++tick) step(sprite, actor, {.slack = 0, .pace = pace});
+      EXPECT_EQ(actor.sample >= 12, start >= 12) << "without slack";
+    }
+  }
+}
+
 TEST(Actor, JumpedTellsEveryTransitionThatIsNotTheFilmsOwn) {
   const Sprite sprite = testing::tiny_sprite();
   Actor actor = make_actor(sprite);
@@ -316,6 +365,56 @@ TEST(Actor, TheSameKeysGiveTheSameStates) {
 }
 
 // A freeze is a tick after a sample's duration that shows the same sample.
+TEST(Actor, ACrowdStepsAsTheTablesOfThePackSay) {
+  const Sprite sprite = testing::tiny_sprite();
+  std::vector<Actor> crowd, plain;
+  for (unsigned k = 0; k < 50; ++k) {
+    crowd.push_back(make_actor(sprite, {static_cast<float>(k), -7}, k, static_cast<int>(k % 2)));
+    crowd.back().sample = 1 + k;
+  }
+  plain = crowd;
+  std::mt19937 random(11);
+  for (int tick = 0; tick < 2000; ++tick) {
+    for (std::size_t k = 0; k < crowd.size(); ++k) {
+      if (random() % 8 == 0) {
+        const auto direction = static_cast<Direction>(random() % kDirectionCount);
+        set_direction(sprite, crowd[k], direction);
+        set_direction(sprite, plain[k], direction);
+      }
+      testing::plain_tick(sprite, plain[k]);
+    }
+    step(sprite, crowd);
+    ASSERT_EQ(std::memcmp(crowd.data(), plain.data(), crowd.size() * sizeof(Actor)), 0) << tick;
+  }
+}
+
+TEST(Actor, AThousandChangesASecondLeaveNoTableAndReplayToTheSameStates) {
+  const Sprite sprite = testing::tiny_sprite();
+  for (int mode = 0; mode < 2; ++mode) {
+    std::uint64_t first = 0;
+    for (int run = 0; run < 2; ++run) {
+      std::mt19937 keys(17);
+      Actor actor = make_actor(sprite, {}, 0, mode);
+      StateHash hash;
+      for (int tick = 0; tick < 3000; ++tick) {
+        for (int change = 0; change < 34; ++change) {  // opposite keys half of the time
+          const auto d = static_cast<int>(keys() % kDirectionCount);
+          const bool turn_back = d < kCompassCount && keys() % 2 == 0;
+          set_direction(sprite, actor, static_cast<Direction>(turn_back ? (d + 4) % 8 : d));
+        }
+        const Actor before = actor;
+        step(sprite, actor);
+        hash.add(actor);
+        ASSERT_TRUE(std::isfinite(shown_cost(sprite, before.sample, actor)));
+        const bool over = before.shown >= sprite.samples()[before.sample].duration;
+        ASSERT_EQ(over, actor.sample != before.sample);
+      }
+      if (run == 0) first = hash.digest();
+      EXPECT_EQ(hash.digest(), first) << "mode " << mode;
+    }
+  }
+}
+
 TEST(Actor, AnHourOfRandomSteeringNeverFreezes) {
   const Sprite sprite = testing::tiny_sprite();
   for (int mode = 0; mode < 2; ++mode) {

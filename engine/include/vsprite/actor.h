@@ -24,6 +24,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "vsprite/geometry.h"
@@ -70,6 +71,11 @@ void set_target(const Sprite& sprite, Actor& actor, Vec2 target, float arrive_ra
 
 /// One tick. Never fails, allocates, locks or logs. O(1).
 void step(const Sprite& sprite, Actor& actor) noexcept;
+/// The same for each of many, to the same states; a crowd is faster this way.
+void step(const Sprite& sprite, std::span<Actor> actors) noexcept;
+
+/// How fast, where the film leaves a choice.
+enum class Pace : std::uint8_t { Any, Slow, Fast };
 
 /// What a game may ask of a tick beyond the command: among transitions that are nearly as good as
 /// the best one, another.
@@ -82,6 +88,9 @@ struct StepWish {
   /// in lockstep; the same seed gives the same states.
   float (*clearance)(const void* world, Vec2 position) = nullptr;
   const void* world = nullptr;  ///< handed to `clearance`
+  /// Without `clearance`: of the near ties the one that leads on slowest or fastest, over the next
+  /// ten samples. A preference, not a command: with `slack` 0 it changes nothing.
+  Pace pace = Pace::Any;
 };
 /// One tick, as above. Cost: one row of transitions where a sample ends. Never allocates.
 void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept;

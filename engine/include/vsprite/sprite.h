@@ -148,7 +148,8 @@ class Sprite {
   /// N.
   Result<void> decode_frame(std::uint32_t sample, Image& out) const;
 
-  struct Impl;
+  struct Impl;  ///< the engine's own
+  const Impl& impl() const noexcept { return *impl_; }
   explicit Sprite(std::unique_ptr<Impl> impl) noexcept;
 
  private:

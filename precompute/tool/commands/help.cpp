@@ -31,6 +31,8 @@ constexpr Verb kVerbs[] = {
     {"path", "PACK --script FILE", "follow a drawn path, and film it",
      "vsprite path hamster.vsp --script maze.txt -o maze.mp4", run_path},
     {"info", "PACK", "what a pack contains", "vsprite info hamster.vsp --json", run_info},
+    {"report", "PACK|--work DIR", "one page about a character, and what to film next",
+     "vsprite report hamster.vsp -o hamster.html", run_report},
     {"validate", "PACK", "check a pack, byte by byte", "vsprite validate hamster.vsp",
      run_validate},
     {"dump", "FILM|PACK|--work DIR", "the numbers behind a sprite, as npy or csv",
@@ -103,7 +105,7 @@ std::string overview_screen() {
       "steer     drive it without a window\n"
       "  info    what a pack contains    validate  check a pack, byte by byte\n"
       "  dump    the numbers, as npy/csv doctor    what is wrong here\n"
-      "  path    follow a drawn path\n"
+      "  path    follow a drawn path     report    what to film next, as a page\n"
       "\n"
       "common:  --jobs N  --seed N  --config FILE.toml  --json  --quiet  --progress MODE  "
       "--version  "

@@ -48,6 +48,7 @@ Result<int> run_build(const Settings&, Console&);
 Result<int> run_play(const Settings&, Console&);
 Result<int> run_steer(const Settings&, Console&);
 Result<int> run_path(const Settings&, Console&);
+Result<int> run_report(const Settings&, Console&);
 Result<int> run_info(const Settings&, Console&);
 Result<int> run_validate(const Settings&, Console&);
 Result<int> run_dump(const Settings&, Console&);

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// ticks.h - a mode compiled for playing: all that one tick of one actor reads lies together.
+//
+// The pack holds next[table][sample], displacements by sample, and what a step leads to must be
+// found out (is it a jump? was a sample left out? has it turned?). None of that depends on the
+// actor, so it is worked out once, when a sprite is loaded. For sample i and group g
+//
+//     record[i][g] = { dx, dy, move of stage 0, move of stage 1, .. }
+//
+// dx, dy: displacement a tick, already turned towards g by up to the mode's bend. A move says where
+// the tables of g lead from i, and what the actor is then: sample, stage, flags. One tick touches
+// one cache line, two in a mode of many stages.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vsprite/sprite.h"
+
+namespace vsprite::detail {
+
+/// A move: sample in bits 0..19 (packs hold at most 1,000,000), the stage after it in 20..24.
+inline constexpr std::uint32_t kMoveSample = (1u << 20) - 1;
+inline constexpr int kMoveStageShift = 20;
+inline constexpr std::uint32_t kMoveStage = 31;
+inline constexpr int kMoveJumpedShift = 25;   ///< 1: not the film's own continuation
+inline constexpr int kMoveSkippedShift = 26;  ///< 1: plays through
+/// Bits 27..31: for how many ticks i is shown; kLongShown: that many or more.
+inline constexpr int kMoveShownShift = 27;
+inline constexpr std::uint32_t kLongShown = 31;
+
+struct TickTable {
+  struct alignas(64) Line {
+    std::uint32_t words[16];
+  };
+  std::uint32_t groups = 0;
+  std::uint32_t stages = 0;
+  std::uint32_t words = 0;  ///< of a record
+  std::vector<Line> lines;
+
+  std::size_t stride() const noexcept { return std::size_t{groups} * words; }
+  const std::uint32_t* record(std::uint32_t sample, std::uint32_t group) const noexcept {
+    return lines.data()->words + sample * stride() + group * words;
+  }
+};
+
+/// `data` has been checked.
+TickTable make_tick_table(const SpriteData& data, const ControlMode& mode);
+
+/// The move from `from` to `to` at a stage: what the actor is afterwards.
+std::uint32_t make_move(const SpriteData& data, const ControlMode& mode, std::uint32_t group,
+                        std::uint32_t stage, std::uint32_t from, std::uint32_t to) noexcept;
+
+}  // namespace vsprite::detail
