@@ -11,4 +11,5 @@ target_sources(vsprite_precompute PRIVATE
   control/response.cpp
   control/path_cost.cpp
   control/search.cpp
+  control/replace.cpp
 )
