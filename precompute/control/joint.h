@@ -26,12 +26,12 @@ namespace vsprite {
 
 struct JointConfig {
   double alpha = 0.985;        ///< [0, 1)
-  double cruise_w1 = 0.12;     ///< w_cruise, per radian, >= 0
+  double cruise_w1 = 0.2;      ///< w_cruise, per radian, >= 0
   double turn_w1 = 0.8;        ///< w_turn, per radian, >= 0; as w_cruise: one table
   double cap = 1;              ///< on T, > 0
   double change_rate = 0.012;  ///< rho, per sample, [0, 1); 0: no model of the player
   double speed_weight = 0.3;   ///< s, radians, >= 0; 0: no speed term
-  bool play_through = true;    ///< i -> i+2
+  bool play_through = false;   ///< i -> i+2
   double skip_price = 1;       ///< times its own T, >= 0
   double bend_deg = 15;        ///< [0, 45]; 0: none
   double exit_deg = 25;        ///< (0, 90]

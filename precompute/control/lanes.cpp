@@ -32,9 +32,11 @@ using Halves = std::int64_t __attribute__((vector_size(4 * kLanes)));
 using Wide = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
 using Loose = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
 
-constexpr int kMaxSweeps = 10000;        // never met: a policy is improved 10..20 times
-constexpr std::uint32_t kMostSeen = 24;  // choices that are remembered of a row
-constexpr double kTie = 1e-6;            // share of the value within which choices are equally good
+constexpr int kMaxSweeps = 10000;         // never met: a policy is improved 10..20 times
+constexpr std::uint32_t kMostSeen = 24;   // choices that are remembered of a row
+constexpr int kRefinePasses = 3;          // sweeps between two evaluations
+constexpr std::size_t kFewChanges = 100;  // fewer than a hundredth: worth a full sweep
+constexpr double kTie = 1e-6;  // share of the value within which choices are equally good
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 #define VSPRITE_INLINE inline __attribute__((always_inline))
@@ -131,14 +133,15 @@ VSPRITE_INLINE void read_values(const SweepView& v) {
 
 // Lanes whose choice the minimum of the row beats clearly get a new one. What was chosen is worth
 // less now than when it was evaluated, if anything, so most rows end at the first test.
-VSPRITE_CLONES std::size_t sweep(const SweepView& v) {
+VSPRITE_CLONES std::size_t sweep(const SweepView& v, int passes) {
   read_values(v);
   const Vector discount = Vector{} + static_cast<float>(v.discount);
   const Vector shift =
       __builtin_convertvector((1 - v.discount) * *v.offset, Vector);  // (1 - b) offset
   std::size_t changed = 0;
-  for (std::size_t i = v.count; i-- > 0;) {
-    v.changed[i] = 0;
+  std::fill_n(v.changed, v.count, std::uint8_t{0});
+  for (std::size_t step = 0; step < v.count * static_cast<std::size_t>(passes); ++step) {
+    const std::size_t i = v.count - 1 - step % v.count;
     const std::uint32_t first = v.first[i], last = v.last[i];
     if (first == last) continue;
     RowBest row;
@@ -160,7 +163,7 @@ VSPRITE_CLONES std::size_t sweep(const SweepView& v) {
       v.chosen_price[at] = v.price[e];
       bits |= 1u << lane;
     }
-    v.changed[i] = static_cast<std::uint8_t>(bits);
+    v.changed[i] = static_cast<std::uint8_t>(v.changed[i] | bits);
     changed += static_cast<std::size_t>(std::popcount(bits));
     const Vector now = fresh ? row.best : row.best < before ? row.best : before;
     const Vector value = now - shift, go = v.arrive[i] + discount * value;
@@ -235,17 +238,21 @@ VSPRITE_CLONES void row_minima(const RowsView& v) {
 
 std::size_t sweep_over(Lanes& lanes, std::span<const std::uint32_t> first,
                        std::span<const std::uint32_t> last, const std::vector<std::uint32_t>& to,
-                       const std::vector<float>& price, std::vector<std::uint8_t>& changed) {
+                       const std::vector<float>& price, int passes,
+                       std::vector<std::uint8_t>& changed) {
   const std::size_t n = first.size();
-  Aligned value(n), go(n);
+  lanes.work.resize((2 * n + 2) * kLanes);
+  const auto at = reinterpret_cast<std::uintptr_t>(lanes.work.data());
+  const auto value = reinterpret_cast<Vector*>((at + 63) / 64 * 64);
   changed.resize(n);
   const auto wide = [](const double* from) { return reinterpret_cast<const Wide*>(from); };
-  return sweep({n, first.data(), last.data(), to.data(), price.data(),
-                reinterpret_cast<const Loose*>(lanes.arrive.data()),
-                lanes.exits.empty() ? nullptr : lanes.exits.data(), wide(lanes.values.data()),
-                lanes.beyond != nullptr ? wide(lanes.beyond->data()) : nullptr,
-                wide(lanes.offset.data()), lanes.discount, value.get(), go.get(), lanes.to.data(),
-                lanes.price.data(), changed.data()});
+  return sweep(
+      {n, first.data(), last.data(), to.data(), price.data(),
+       reinterpret_cast<const Loose*>(lanes.arrive.data()),
+       lanes.exits.empty() ? nullptr : lanes.exits.data(), wide(lanes.values.data()),
+       lanes.beyond != nullptr ? wide(lanes.beyond->data()) : nullptr, wide(lanes.offset.data()),
+       lanes.discount, value, value + n, lanes.to.data(), lanes.price.data(), changed.data()},
+      passes);
 }
 
 // Adds the new choices of a row to those seen; a full row keeps what it has.
@@ -271,8 +278,26 @@ class Evaluation {
   explicit Evaluation(Lanes& lanes) : lanes_(lanes), state_(lanes.to.size(), kUnseen) {}
 
   void run() {
+    const std::uint32_t* __restrict to = lanes_.to.data();
+    const float* __restrict price = lanes_.price.data();
+    const float* __restrict arrive = lanes_.arrive.data();
+    const std::uint8_t* __restrict exits = lanes_.exits.empty() ? nullptr : lanes_.exits.data();
+    double* __restrict values = lanes_.values.data();
+    std::uint8_t* __restrict state = state_.data();
+    const double discount = lanes_.discount;
     for (std::size_t at = lanes_.to.size(); at-- > 0;) {
-      if (state_[at] == kUnseen) follow(at);
+      if (state[at] != kUnseen) continue;
+      const std::uint32_t j = to[at];
+      const std::size_t lane = at % kLanes, next = std::size_t{j} * kLanes + lane;
+      const bool is_near = j != kNoSample && (exits == nullptr || (exits[j] >> lane & 1) == 0) &&
+                           state[next] == kKnown;
+      if (is_near) {
+        const double cost = static_cast<double>(price[at]) + static_cast<double>(arrive[next]);
+        values[at] = cost + discount * values[next];
+        state[at] = kKnown;
+      } else {
+        follow(at);
+      }
     }
   }
 
@@ -397,8 +422,8 @@ void start(const Edges& edges, Lanes& lanes) {
 std::size_t improve(const Edges& edges, Lanes& lanes) {
   const std::span rows(edges.row_start);
   std::vector<std::uint8_t> changed;
-  const std::size_t count =
-      sweep_over(lanes, rows.first(edges.size()), rows.subspan(1), edges.to, edges.price, changed);
+  const std::size_t count = sweep_over(lanes, rows.first(edges.size()), rows.subspan(1), edges.to,
+                                       edges.price, 1, changed);
   for (std::size_t i = 0; i < changed.size(); ++i)
     if (changed[i] != 0) remember(lanes, i, changed[i]);
   return count;
@@ -413,8 +438,11 @@ void refine(const Edges& edges, Lanes& lanes) {
   const Lanes::Seen& seen = lanes.seen;
   std::vector<std::uint8_t> changed;
   for (int k = 0; k < kMaxSweeps; ++k) {
-    if (sweep_over(lanes, seen.first, seen.last, seen.to, seen.price, changed) == 0) break;
+    const std::size_t count =
+        sweep_over(lanes, seen.first, seen.last, seen.to, seen.price, kRefinePasses, changed);
+    if (count == 0) break;
     evaluate(edges, lanes);
+    if (count < lanes.to.size() / kFewChanges) break;
   }
 }
 

@@ -63,6 +63,7 @@ struct Lanes {
     std::vector<std::uint32_t> to;
     std::vector<float> price;
   } seen;
+  LaneFloats work;  ///< of sweeps, kept so that none has to fetch memory anew
 };
 /// `lanes.arrive` is due; values become 0.
 void start(const Edges& edges, Lanes& lanes);
@@ -71,8 +72,8 @@ void start(const Edges& edges, Lanes& lanes);
 std::size_t improve(const Edges& edges, Lanes& lanes);
 /// V of the choices as they stand, exactly.
 void evaluate(const Edges& edges, Lanes& lanes);
-/// Sweeps over the choices seen so far and evaluations, until none changes: an optimum of a graph
-/// of a tenth of the edges, which improve() then has little to add to.
+/// Sweeps over the choices seen so far and evaluations, until hardly any changes: near the optimum
+/// of a graph of a tenth of the edges, to which improve() then has little to add.
 void refine(const Edges& edges, Lanes& lanes);
 /// All three until no choice among all edges changes.
 void solve_lanes(const Edges& edges, Lanes& lanes);

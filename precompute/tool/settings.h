@@ -56,11 +56,11 @@ struct Settings {
   std::string directions = "auto";
   double response_alpha = 0.985;
   double response_cap = 0;  ///< 0: by reachability
-  double cruise_w1 = 0.12;
+  double cruise_w1 = 0.2;
   double turn_w1 = 0.8;
   double change_rate = 0.35;  ///< a second
   double speed_weight = 0.3;
-  std::string play_through = "on";
+  std::string play_through = "off";
   double skip_price = 1;
   double bend = 15;
   double exit_angle = 25;
