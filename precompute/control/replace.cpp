@@ -3,8 +3,8 @@
 //
 // The sequel's idea; the moves are our own (its text is not at hand): a detour along one
 // direction's table that rejoins the old sequence, a cut that leaves a piece out, a new end, a new
-// beginning. Half of the directions lead towards a place that is wanted then. A change that costs a
-// little is taken now and then, ever less; the best is kept aside.
+// beginning. Half of the directions lead towards what a term wants, now or later. A change that
+// costs a little is taken now and then, ever less; the best is kept aside.
 #include "control/replace.h"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "control/response.h"
 #include "similarity/features.h"
 #include "vsprite/policy.h"
+#include "vsprite/random.h"
 
 namespace vsprite {
 namespace {
@@ -37,7 +38,7 @@ Point point_of(Position p) {
 }
 
 // One sprite's sequence, laid out in time and space.
-struct Track {
+struct Course {
   std::vector<std::uint32_t> samples;  // as shown one after the other
   std::vector<std::uint32_t> at_tick;  // index into `samples`, a tick
   std::vector<Position> places;        // a tick
@@ -71,26 +72,26 @@ class Role {
     const Policy policy = make_policy(sprite(), mode_);
     const ControlMode& mode = sprite().data().modes[static_cast<std::size_t>(mode_)];
     const Direction table = mode.table_of[static_cast<std::size_t>(direction)];
-    return next_sample(policy, table_index(policy, table, 0), sample);
+    return next_sample(policy, table_index(policy, group_of(mode, table), 0), sample);
   }
 
   // Trims or continues `samples` to the scene's length, and places them.
-  Track lay_out(std::vector<std::uint32_t> samples) const {
-    Track track;
-    track.samples = std::move(samples);
+  Course lay_out(std::vector<std::uint32_t> samples) const {
+    Course course;
+    course.samples = std::move(samples);
     Position place = to_position(role_.start);
-    for (std::size_t k = 0; track.at_tick.size() < ticks_; ++k) {
-      if (k == track.samples.size())
-        track.samples.push_back(follow(track.samples.back(), Direction::None));
-      const Sample& s = sprite().samples()[track.samples[k]];
-      for (std::uint32_t t = 0; t < s.duration && track.at_tick.size() < ticks_; ++t) {
-        track.at_tick.push_back(static_cast<std::uint32_t>(k));
-        track.places.push_back(place);
+    for (std::size_t k = 0; course.at_tick.size() < ticks_; ++k) {
+      if (k == course.samples.size())
+        course.samples.push_back(follow(course.samples.back(), Direction::None));
+      const Sample& s = sprite().samples()[course.samples[k]];
+      for (std::uint32_t t = 0; t < s.duration && course.at_tick.size() < ticks_; ++t) {
+        course.at_tick.push_back(static_cast<std::uint32_t>(k));
+        course.places.push_back(place);
         place = {place.x + s.step_x, place.y + s.step_y};
       }
     }
-    track.samples.resize(track.at_tick.back() + std::size_t{1});
-    return track;
+    course.samples.resize(course.at_tick.back() + std::size_t{1});
+    return course;
   }
 
   // What a term says of a place alone.
@@ -129,30 +130,36 @@ class Role {
   static bool is_place(Kind kind) { return kind == Kind::Location || kind == Kind::Region; }
   static bool is_pair(Kind kind) { return kind == Kind::KeepClear || kind == Kind::Meet; }
 
-  // A term over a track, tick by tick, to `each(tick, value)`.
   template <class Each>
-  void value(std::size_t index, const Track& track, const std::vector<Track>& all,
+  static void each_value(const Each& each, std::uint32_t tick, double value) {
+    each(tick, value, value);
+  }
+  // A term over a course, tick by tick, to `each(tick, value, what is reported as the worst)`.
+  template <class Each>
+  void value(std::size_t index, const Course& course, const std::vector<Course>& all,
              const Each& each) const {
     const SceneTerm& term = role_.terms[index];
     const std::uint32_t end = std::min(term.to, ticks_);
-    if (term.kind == Kind::Path) return path_value(paths_[index].front(), term, track, each);
+    if (term.kind == Kind::Path) return path_value(paths_[index].front(), term, course, each);
     for (std::uint32_t t = term.from; t < end; ++t) {
-      const Point p = point_of(track.places[t]);
+      const Point p = point_of(course.places[t]);
       if (is_pair(term.kind))
-        each(t, pair_value(term, p, point_of(all[term.other].places[t])));
+        each_value(each, t, pair_value(term, p, point_of(all[term.other].places[t])));
       else if (is_place(term.kind))
-        each(t, place_value(term, p));
+        each_value(each, t, place_value(term, p));
       else
-        each(t, sample_value(term, track.samples[track.at_tick[t]]));
+        each_value(each, t, sample_value(term, course.samples[course.at_tick[t]]));
     }
   }
 
-  double cost(const Track& track, const std::vector<Track>& all) const {
+  double cost(const Course& course, const std::vector<Course>& all) const {
     double sum = 0;
-    for (std::size_t k = 1; k < track.samples.size(); ++k)
-      sum += static_cast<double>(sprite().transition_cost(track.samples[k - 1], track.samples[k]));
+    for (std::size_t k = 1; k < course.samples.size(); ++k)
+      sum +=
+          static_cast<double>(sprite().transition_cost(course.samples[k - 1], course.samples[k]));
     for (std::size_t i = 0; i < role_.terms.size(); ++i)
-      value(i, track, all, [&](std::uint32_t, double v) { sum += role_.terms[i].weight * v; });
+      value(i, course, all,
+            [&](std::uint32_t, double v, double) { sum += role_.terms[i].weight * v; });
     return sum;
   }
 
@@ -163,14 +170,14 @@ class Role {
 
   // Segments are passed in order, as in search.h; beyond the end its last point counts.
   template <class Each>
-  void path_value(const PathCost& path, const SceneTerm& term, const Track& track,
+  void path_value(const PathCost& path, const SceneTerm& term, const Course& course,
                   const Each& each) const {
     const Position origin = to_position(path.origin());
     const auto segments = path.segments();
     std::uint32_t l = 0;
     for (std::uint32_t t = term.from; t < std::min(term.to, ticks_); ++t) {
-      const double x = static_cast<double>(track.places[t].x - origin.x);
-      const double y = static_cast<double>(track.places[t].y - origin.y);
+      const double x = static_cast<double>(course.places[t].x - origin.x);
+      const double y = static_cast<double>(course.places[t].y - origin.y);
       const auto along = [&](const PathSegment& s) {
         return (x - s.x) * s.unit_x + (y - s.y) * s.unit_y;
       };
@@ -179,8 +186,8 @@ class Role {
       const double on = std::clamp(along(s), 0.0, s.length);
       const Point off{x - s.x - on * s.unit_x, y - s.y - on * s.unit_y};
       const bool is_over = along(s) >= s.length;
-      each(t, squared(length(off) / kPathUnit / body_) +
-                  (is_over ? 0 : path.angle(track.samples[track.at_tick[t]], l)));
+      const double apart = squared(length(off) / kPathUnit / body_);
+      each(t, apart + (is_over ? 0 : path.angle(course.samples[course.at_tick[t]], l)), apart);
     }
   }
 
@@ -192,7 +199,7 @@ class Role {
   std::vector<std::vector<PathCost>> paths_;  // (terms), one where the term is a path
 };
 
-// Draws changes of one track.
+// Draws changes of one course.
 class Proposer {
  public:
   Proposer(const Role& role, Random& random) : role_(role), random_(random) {
@@ -202,37 +209,60 @@ class Proposer {
 
   std::uint32_t any_sample() { return kept_[random_.below(kept_.size())]; }
 
-  std::vector<std::uint32_t> draw(const Track& track) {
-    const std::size_t n = track.samples.size(), at = random_.below(n);
+  std::vector<std::uint32_t> draw(const Course& course) {
+    const std::size_t n = course.samples.size(), at = random_.below(n);
     switch (random_.below(8)) {
       case 0:
-        return fresh_start(track);
+        return fresh_start(course);
       case 1:
       case 2:
-        return cut(track, at);
+        return cut(course, at);
       case 3:
       case 4:
-        return fresh_end(track, at);
+        return fresh_end(course, at);
       default:
-        return detour(track, at);
+        return detour(course, at);
     }
   }
 
  private:
   using Samples = std::vector<std::uint32_t>;
 
-  Direction direction(const Track& track, std::size_t at) {
-    if (random_.below(2) == 0) return static_cast<Direction>(random_.below(kDirectionCount));
-    // Towards a place that is wanted within the next two seconds or so.
+  // Half of the time towards what one of the terms wants, now or later.
+  Direction direction(const Course& course, std::size_t at) {
+    const auto anywhere = static_cast<Direction>(random_.below(kDirectionCount));
+    if (random_.below(2) == 0 || role_.terms().empty()) return anywhere;
+    const SceneTerm& term = role_.terms()[random_.below(role_.terms().size())];
     const auto tick = static_cast<std::uint32_t>(
-        std::lower_bound(track.at_tick.begin(), track.at_tick.end(), at) - track.at_tick.begin());
-    const auto then = tick + static_cast<std::uint32_t>(random_.below(60));
-    for (const SceneTerm& term : role_.terms()) {
-      if (term.kind != Kind::Location || then < term.from || then >= term.to) continue;
-      const Vec2 p = to_pixels(track.places[std::min<std::size_t>(tick, track.places.size() - 1)]);
-      return nearest_direction({term.at.x - p.x, term.at.y - p.y});
+        std::lower_bound(course.at_tick.begin(), course.at_tick.end(), at) -
+        course.at_tick.begin());
+    if (tick >= term.to) return anywhere;
+    const Vec2 p = to_pixels(course.places[std::min<std::size_t>(tick, course.places.size() - 1)]);
+    if (term.kind == Kind::Location) return nearest_direction({term.at.x - p.x, term.at.y - p.y});
+    if (term.kind == Kind::Region)
+      return nearest_direction(
+          {(term.low.x + term.high.x) / 2 - p.x, (term.low.y + term.high.y) / 2 - p.y});
+    if (term.kind != Kind::Path) return anywhere;
+    const Vec2 next = ahead_on(term.points, p);
+    return nearest_direction({next.x - p.x, next.y - p.y});
+  }
+  // A body length further on the path than its place nearest to `p`.
+  Vec2 ahead_on(const std::vector<Vec2>& points, Vec2 p) const {
+    Vec2 best = points.back();
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t k = 1; k < points.size(); ++k) {
+      const Vec2 a = points[k - 1], d{points[k].x - a.x, points[k].y - a.y};
+      const float square = d.x * d.x + d.y * d.y;
+      if (square <= 0) continue;
+      const float t = std::clamp(((p.x - a.x) * d.x + (p.y - a.y) * d.y) / square, 0.0f, 1.0f);
+      const Vec2 off{a.x + t * d.x - p.x, a.y + t * d.y - p.y};
+      const float apart = off.x * off.x + off.y * off.y;
+      if (apart >= least) continue;
+      least = apart;
+      const float on = t + std::max(1.0f, role_.sprite().data().body_length) / std::sqrt(square);
+      best = {a.x + on * d.x, a.y + on * d.y};
     }
-    return static_cast<Direction>(random_.below(kDirectionCount));
+    return best;
   }
   // The cheapest way from `sample` into old[first, last), or `last`.
   std::size_t rejoin(std::uint32_t sample, const Samples& old, std::size_t first,
@@ -252,14 +282,14 @@ class Proposer {
     head.insert(head.end(), old.begin() + static_cast<std::ptrdiff_t>(from), old.end());
     return head;
   }
-  Samples head_of(const Track& track, std::size_t at) const {
-    return {track.samples.begin(), track.samples.begin() + static_cast<std::ptrdiff_t>(at) + 1};
+  Samples head_of(const Course& course, std::size_t at) const {
+    return {course.samples.begin(), course.samples.begin() + static_cast<std::ptrdiff_t>(at) + 1};
   }
 
-  Samples detour(const Track& track, std::size_t at) {
-    const Samples& old = track.samples;
-    Samples head = head_of(track, at);
-    const Direction way = direction(track, at);
+  Samples detour(const Course& course, std::size_t at) {
+    const Samples& old = course.samples;
+    Samples head = head_of(course, at);
+    const Direction way = direction(course, at);
     const std::size_t due = 1 + random_.below(kLongestPart);
     for (std::size_t k = 0; k < due + kLongestPart; ++k) {
       head.push_back(role_.follow(head.back(), way));
@@ -270,31 +300,31 @@ class Proposer {
     }
     return head;  // the rest plays on by itself
   }
-  Samples cut(const Track& track, std::size_t at) {
-    const Samples& old = track.samples;
+  Samples cut(const Course& course, std::size_t at) {
+    const Samples& old = course.samples;
     const std::size_t skip = 2 + random_.below(kWindow);
     const std::size_t first = std::min(at + skip, old.size());
     const std::size_t last = std::min(first + 10, old.size());
     const std::size_t back = rejoin(old[at], old, first, last);
-    return back < last ? joined(head_of(track, at), old, back) : old;
+    return back < last ? joined(head_of(course, at), old, back) : old;
   }
-  Samples fresh_end(const Track& track, std::size_t at) {
-    Samples head = head_of(track, at);
-    while (head.size() < track.samples.size() + kLongestPart) {
-      const Direction way = direction(track, std::min(head.size(), track.samples.size()) - 1);
+  Samples fresh_end(const Course& course, std::size_t at) {
+    Samples head = head_of(course, at);
+    while (head.size() < course.samples.size() + kLongestPart) {
+      const Direction way = direction(course, std::min(head.size(), course.samples.size()) - 1);
       const std::size_t end = head.size() + 10 + random_.below(2 * kLongestPart);
       while (head.size() < end) head.push_back(role_.follow(head.back(), way));
     }
     return head;
   }
-  Samples fresh_start(const Track& track) {
-    const Samples& old = track.samples;
+  Samples fresh_start(const Course& course) {
+    const Samples& old = course.samples;
     Samples head{any_sample()};
     const std::size_t last = std::min(old.size(), kWindow);
     for (std::size_t k = 0; k < kLongestPart; ++k) {
       const std::size_t back = rejoin(head.back(), old, 0, last);
       if (back < last) return joined(std::move(head), old, back);
-      head.push_back(role_.follow(head.back(), direction(track, 0)));
+      head.push_back(role_.follow(head.back(), direction(course, 0)));
     }
     return old;
   }
@@ -304,35 +334,35 @@ class Proposer {
   Samples kept_;
 };
 
-double total_cost(const std::vector<Role>& roles, const std::vector<Track>& tracks) {
+double total_cost(const std::vector<Role>& roles, const std::vector<Course>& courses) {
   double sum = 0;
-  for (std::size_t r = 0; r < roles.size(); ++r) sum += roles[r].cost(tracks[r], tracks);
+  for (std::size_t r = 0; r < roles.size(); ++r) sum += roles[r].cost(courses[r], courses);
   return sum;
 }
 
-SceneResult result_of(const std::vector<Role>& roles, const std::vector<Track>& tracks) {
+SceneResult result_of(const std::vector<Role>& roles, const std::vector<Course>& courses) {
   SceneResult out;
   for (std::size_t r = 0; r < roles.size(); ++r) {
     Clip clip;
-    const Track& track = tracks[r];
-    for (std::size_t t = 0; t < track.places.size(); ++t) {
+    const Course& course = courses[r];
+    for (std::size_t t = 0; t < course.places.size(); ++t) {
       ClipTick tick;
-      const std::uint32_t k = track.at_tick[t];
-      tick.sample = track.samples[k];
-      tick.position = track.places[t];
-      if (k > 0 && (t == 0 || track.at_tick[t - 1] != k))
-        tick.transition = roles[r].sprite().transition_cost(track.samples[k - 1], tick.sample);
+      const std::uint32_t k = course.at_tick[t];
+      tick.sample = course.samples[k];
+      tick.position = course.places[t];
+      if (k > 0 && (t == 0 || course.at_tick[t - 1] != k))
+        tick.transition = roles[r].sprite().transition_cost(course.samples[k - 1], tick.sample);
       tick.cost = static_cast<double>(tick.transition);
       clip.cost += tick.cost;
       clip.ticks.push_back(tick);
     }
     for (std::size_t i = 0; i < roles[r].terms().size(); ++i) {
       TermReport report{.role = r, .term = i};
-      roles[r].value(i, track, tracks, [&](std::uint32_t t, double v) {
+      roles[r].value(i, course, courses, [&](std::uint32_t t, double v, double shown) {
         report.cost += roles[r].terms()[i].weight * v;
         clip.ticks[t].cost += roles[r].terms()[i].weight * v;
-        if (v <= report.worst) return;
-        report.worst = v;
+        if (shown <= report.worst) return;
+        report.worst = shown;
         report.worst_tick = t;
       });
       clip.cost += report.cost;
@@ -340,7 +370,7 @@ SceneResult result_of(const std::vector<Role>& roles, const std::vector<Track>& 
     }
     out.clips.push_back(std::move(clip));
   }
-  out.cost = total_cost(roles, tracks);
+  out.cost = total_cost(roles, courses);
   return out;
 }
 
@@ -400,31 +430,33 @@ SceneResult replace_search(const Scene& scene, const ReplaceConfig& config) {
   const std::vector<Role> roles = make_roles(scene);
   Random random{config.seed};
   std::vector<Proposer> proposers;
-  std::vector<Track> tracks;
-  for (const Role& role : roles) {
-    proposers.emplace_back(role, random);
-    tracks.push_back(role.lay_out({role.sprite().data().start_sample}));
+  std::vector<Course> courses;
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    proposers.emplace_back(roles[r], random);
+    courses.push_back(roles[r].lay_out(config.start.empty()
+                                           ? std::vector{roles[r].sprite().data().start_sample}
+                                           : config.start[r]));
   }
-  double cost = total_cost(roles, tracks), best_cost = cost;
-  std::vector<Track> best = tracks;
+  double cost = total_cost(roles, courses), best_cost = cost;
+  std::vector<Course> best = courses;
   std::uint64_t k = 0, accepted = 0;
   for (; k < config.proposals; ++k) {
     if (k % kTurn == 0 && config.go_on && !config.go_on(k, best_cost)) break;
     const std::size_t r = k / kTurn % roles.size();
-    Track track = roles[r].lay_out(proposers[r].draw(tracks[r]));
-    std::swap(track, tracks[r]);
-    const double after = total_cost(roles, tracks);
+    Course course = roles[r].lay_out(proposers[r].draw(courses[r]));
+    std::swap(course, courses[r]);
+    const double after = total_cost(roles, courses);
     const double warmth = kWarmth / (1 + static_cast<double>(k) / kCooling);
     const double luck = random.unit();
     if (after > cost + warmth * luck * luck * luck) {
-      std::swap(track, tracks[r]);
+      std::swap(course, courses[r]);
       continue;
     }
     ++accepted;
     cost = after;
     if (cost >= best_cost) continue;
     best_cost = cost;
-    best = tracks;
+    best = courses;
   }
   SceneResult out = result_of(roles, best);
   out.proposals = k;

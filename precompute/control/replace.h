@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "control/search.h"
-#include "similarity/random.h"
 #include "vsprite/result.h"
 #include "vsprite/sprite.h"
 
@@ -44,13 +43,13 @@ struct SceneTerm {
   Kind kind = Kind::Location;
   double weight = 1;
   std::uint32_t from = 0, to = std::numeric_limits<std::uint32_t>::max();  ///< ticks
-  Vec2 at;                                                                 ///< Location
+  Vec2 at{};                                                               ///< Location
   double radius = 0;                                                       ///< Location, px
-  std::vector<Vec2> points;                                                ///< Path, px
+  std::vector<Vec2> points{};                                              ///< Path, px
   double angle = 0;                                                        ///< Heading, radians
   double speed = 0;                                                        ///< Speed, px/s
   std::uint32_t sample = 0;                                                ///< Pose
-  Vec2 low, high;                                                          ///< Region
+  Vec2 low{}, high{};                                                      ///< Region
   std::uint32_t other = 0;  ///< KeepClear, Meet: index of the other sprite
   double distance = 0;      ///< KeepClear, Meet, px
 };
@@ -71,7 +70,7 @@ struct Scene {
 struct TermReport {
   std::size_t role = 0, term = 0;
   double cost = 0;   ///< its share of the sum
-  double worst = 0;  ///< largest value in a tick, without the weight
+  double worst = 0;  ///< largest value in a tick, without the weight; of a path (d / b)^2 alone
   std::uint32_t worst_tick = 0;
 };
 
@@ -86,6 +85,9 @@ struct SceneResult {
 struct ReplaceConfig {
   std::uint64_t seed = 1;
   std::uint64_t proposals = std::numeric_limits<std::uint64_t>::max();  ///< stop after so many
+  /// What to start from: the samples of each role, each a successor of the one before. Empty: the
+  /// sprites play by themselves.
+  std::vector<std::vector<std::uint32_t>> start = {};
   /// Asked now and then with the cost so far; false stops the search. Must be set, or `proposals`.
   std::function<bool(std::uint64_t proposals, double cost)> go_on = {};
 };

@@ -20,6 +20,7 @@
 #include <bit>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "similarity/features.h"
@@ -153,7 +154,8 @@ struct Parent {
 
 // One tile's share of a tick.
 struct Tile {
-  std::vector<Parent> parents;
+  std::vector<Parent> store;  // grows, never shrinks: parents are written in place
+  std::span<Parent> parents;
   Cost least = kNoCost;    // of B
   Cost arrived = kNoCost;  // cheapest that arrived
   std::uint32_t arrived_node = kNoNode;
@@ -259,6 +261,7 @@ bool Beam::take_tick() {
   ++tick_;
   auto& pool = pools_[tick_ % pools_.size()];
   moving_.swap(pool);
+  if (beam_.empty()) beam_.swap(pool);  // past sequences: memory that need not be made anew
   pool.clear();
   tile_count_ = (moving_.size() + kTile - 1) / kTile;
   if (tiles_.size() < tile_count_) tiles_.resize(tile_count_);
@@ -267,7 +270,8 @@ bool Beam::take_tick() {
 
 void Beam::leave(std::size_t index) {
   Tile& tile = tiles_[index];
-  tile.parents.clear();
+  if (tile.store.empty()) tile.store.resize(kTile);
+  std::size_t count = 0;
   tile.least = tile.arrived = kNoCost;
   tile.evaluated = 0;
   tile.has_new = false;
@@ -275,7 +279,7 @@ void Beam::leave(std::size_t index) {
   const std::size_t end = std::min(moving_.size(), (index + 1) * kTile);
   for (std::size_t k = index * kTile; k < end; ++k) {
     const Sequence& s = moving_[k];
-    Parent parent;
+    Parent& parent = tile.store[count];
     const PathEnd how = path_.leave(s.state, parent.state);
     if (how == PathEnd::Dropped || parent.state.cost >= best_) continue;
     if (how == PathEnd::Arrived) {
@@ -294,8 +298,9 @@ void Beam::leave(std::size_t index) {
     }
     parent.rank = parent.state.cost + path_.estimate(parent.state);
     tile.least = std::min(tile.least, parent.rank);
-    tile.parents.push_back(parent);
+    ++count;
   }
+  tile.parents = {tile.store.data(), count};
 }
 
 void Beam::make_rows() {
@@ -332,13 +337,14 @@ void Beam::guess(Tile& tile, std::uint32_t limit, int shift) const {
 
 // How far above the least B the cut will lie, from every kStride-th parent; rather too far.
 std::uint64_t Beam::expect_spread() {
-  sampled_.parents.clear();
+  sampled_.store.clear();
   std::size_t k = 0;
   for (std::size_t t = 0; t < tile_count_; ++t) {
     for (; k < tiles_[t].parents.size(); k += kStride)
-      sampled_.parents.push_back(tiles_[t].parents[k]);
+      sampled_.store.push_back(tiles_[t].parents[k]);
     k -= tiles_[t].parents.size();
   }
+  sampled_.parents = sampled_.store;
   const std::size_t due = width_ / kStride + width_ / kStride / 16 + 16;
   for (std::uint64_t limit = spread_ + spread_ / 4;; limit *= 2) {
     limit = std::min(limit, kMostSpread);

@@ -290,9 +290,9 @@ void add_use_options(Row& t) {
 }
 
 void add_path_options(Row& t) {
-  t.text("script", "FILE", &Settings::script, "the path: one point `x y` a line, output px",
-         " path ");
-  t.text("backdrop", "FILE.png", &Settings::backdrop, "picture behind the sprite", " path ");
+  t.text("script", "FILE", &Settings::script, "a path: one point `x y` a line, output px; or a scene (.toml)", " path ");
+  t.text("backdrop", "FILE", &Settings::backdrop,
+         "picture (.png) behind the sprite, or a film that is shown over and over", " path ");
   t.text(
       "size", "WxH", &Settings::size,
       "of the film, px; default: the backdrop's, else the path's box and a body length around it",
@@ -311,6 +311,20 @@ void add_path_options(Row& t) {
          "price of a body length off the path, squared, a tick", " path ");
   t.real("tau", "W", &Settings::tau, 0, 1000, false,
          "price of a tick: looks ahead to the end; 0 = the paper's form", " path ");
+  t.real("budget", "S", &Settings::budget, 0.01, 1000000, false,
+         "scene: seconds of search; Ctrl-C ends it early and keeps the best so far", " path ");
+  t.whole<std::uint64_t>("proposals", "N", &Settings::proposals, 0, UINT64_MAX,
+                         "scene: stop after so many instead: the same N and seed give the same "
+                         "result; 0 = by the budget",
+                         " path ");
+  t.text("search", "HOW", &Settings::search,
+         "scene: replace looks ahead; beam (of --beam) does not: for comparison, one sprite",
+         " path ", "replace|beam");
+  t.text("clip", "NAME", &Settings::clip,
+         "with -o OTHER.vsp: what the run is called in the pack; default: the script's name",
+         " path ");
+  t.text("resume", "FILE.json", &Settings::resume,
+         "scene: start from the places that an earlier run wrote", " path ");
 }
 
 void add_common_options(Row& t) {

@@ -92,6 +92,11 @@ struct Settings {
   double path_w1 = 0.2;
   double w2 = 8;
   double tau = 0.1;
+  double budget = 10;
+  std::uint64_t proposals = 0;  ///< 0: as many as the budget allows
+  std::string resume;
+  std::string clip;
+  std::string search = "replace";
 
   // Looking into it.
   std::string what;

@@ -23,6 +23,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/preview.cpp
   tool/project.cpp
   tool/report.cpp
+  tool/scene_script.cpp
   tool/segment.cpp
   tool/settings.cpp
   tool/tiles.cpp
@@ -45,6 +46,7 @@ add_executable(vsprite
   tool/commands/parse.cpp
   tool/commands/train.cpp
   tool/commands/path.cpp
+  tool/commands/path_scene.cpp
   tool/commands/report.cpp
 )
 target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)

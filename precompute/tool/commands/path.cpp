@@ -3,11 +3,11 @@
 //
 // path: a sprite along a drawn path, searched, measured, and filmed.
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 
 #include "control/response.h"
-#include "tool/commands/verbs.h"
-#include "tool/path_film.h"
+#include "tool/commands/path_parts.h"
 #include "vsprite/pack.h"
 
 namespace vsprite {
@@ -20,37 +20,12 @@ Result<void> check_output(const std::string& path) {
   std::error_code error;
   if (path.empty() || path.back() == '/' || fs::is_directory(path, error)) return {};
   const std::string ending = fs::path(path).extension().string();
-  if (ending == ".mp4" || ending == ".mkv" || ending == ".json") return {};
-  return Error{ErrorCode::BadSetting,
-               "-o " + path +
-                   ": a name in .mp4, .mkv (with alpha) or .json is due, or a folder "
-                   "for PNG pictures, ending in `/`"};
-}
-
-struct Ground {
-  PathPicture picture;
-  Image backdrop;  ///< empty: plain
-  bool is_given = false;
-};
-
-Result<Ground> ground_of(const Settings& settings, const std::vector<Vec2>& points,
-                         const Sprite& sprite) {
-  Ground out;
-  if (!settings.backdrop.empty()) {
-    auto image = read_png(settings.backdrop);
-    if (!image) return image.error();
-    out.backdrop = std::move(*image);
-    out.picture = {out.backdrop.width, out.backdrop.height, {}};
-    out.is_given = true;
-  } else if (!settings.size.empty()) {
-    const auto size = parse_size(settings.size);
-    if (!size) return size.error();
-    out.picture = {(*size)[0], (*size)[1], {}};
-    out.is_given = true;
-  } else {
-    out.picture = picture_around(points, sprite.data().body_length);
-  }
-  return out;
+  if (ending == ".mp4" || ending == ".mkv" || ending == ".json" || ending == ".vsp") return {};
+  return Error{
+      ErrorCode::BadSetting,
+      "-o " + path +
+          ": a name in .mp4, .mkv (with alpha), .json or .vsp (the pack, with the run in it) is "
+          "due, or a folder for PNG pictures, ending in `/`"};
 }
 
 PathWeights weights_of(const Settings& settings, const Sprite& sprite) {
@@ -62,45 +37,37 @@ PathWeights weights_of(const Settings& settings, const Sprite& sprite) {
   weights.w2 = settings.w2 / (body * body);
   weights.tau = settings.tau;
   weights.usual_speed = usual;
-  weights.v0 = 0.35 * usual;
+  weights.v0 = usual_v0(speeds);
   weights.least_speed = weights.v0 / 4;
   return weights;
 }
 
 Result<void> write_outputs(const Settings& settings, const Sprite& sprite, const Clip& clip,
-                           const Ground& ground, const StageListener& listener) {
+                           const Stage& stage, Console& console) {
   if (!settings.trace.empty())
     if (auto wrote = write_file(settings.trace, clip_csv(clip)); !wrote) return wrote;
-  const std::string& path = settings.output;
-  if (path.empty()) return {};
-  if (fs::path(path).extension() == ".json")
-    return write_file(path, clip_json(sprite, clip, ground.picture).dump(1) + "\n");
-  listener.begin("film");
-  const auto wrote =
-      write_path_film(path, {{&sprite, &clip}}, ground.picture, ground.backdrop, listener.progress);
-  if (wrote) listener.end("film", false);
-  return wrote;
+  if (fs::path(settings.output).extension() == ".json")
+    return write_file(settings.output, clip_json(sprite, clip, stage.picture).dump(1) + "\n");
+  if (fs::path(settings.output).extension() == ".vsp") {
+    const std::string name = fs::path(settings.script).stem().string();
+    return write_pack_clips(
+        settings, sprite,
+        {to_pack_clip(sprite, clip, settings.clip.empty() ? name : settings.clip)});
+  }
+  return write_film(settings, {{&sprite, &clip}}, stage, console);
 }
 
-}  // namespace
-
-Result<int> run_path(const Settings& settings, Console& console) {
-  if (settings.film.empty()) return Error{ErrorCode::BadSetting, "a pack is due: PACK.vsp"};
-  if (settings.script.empty())
-    return Error{ErrorCode::BadSetting, "--script FILE is due: the path, one point `x y` a line"};
-  if (auto checked = check_output(settings.output); !checked) return checked.error();
+Result<int> follow_path(const Settings& settings, const std::string& text, Console& console) {
   const auto sprite = load_pack(settings.film);
   if (!sprite) return sprite.error();
-  const auto text = read_file(settings.script);
-  if (!text) return text.error();
-  const auto points = parse_path(*text, settings.script);
+  const auto points = parse_path(text, settings.script);
   if (!points) return points.error();
   auto path = PathCost::make(*sprite, *points, weights_of(settings, *sprite));
   if (!path) return Error{path.error().code, settings.script + ": " + path.error().message};
-  const auto ground = ground_of(settings, *points, *sprite);
-  if (!ground) return ground.error();
-  if (ground->is_given)
-    if (auto inside = check_inside(*points, ground->picture, settings.script); !inside)
+  const auto stage = make_stage(settings, *points, sprite->data().body_length);
+  if (!stage) return stage.error();
+  if (stage->is_given)
+    if (auto inside = check_inside(*points, stage->picture, settings.script); !inside)
       return inside.error();
 
   const StageListener listener = console.listener();
@@ -112,17 +79,110 @@ Result<int> run_path(const Settings& settings, Console& console) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   if (!clip) return Error{clip.error().code, settings.script + ": " + clip.error().message};
   listener.end("search", false);
-  if (auto wrote = write_outputs(settings, *sprite, *clip, *ground, listener); !wrote)
+  if (auto wrote = write_outputs(settings, *sprite, *clip, *stage, console); !wrote)
     return wrote.error();
   const ClipReport report = measure_clip(*path, *clip);
   console.text(path_text(*sprite, *clip, report, seconds));
   console.document(path_json(*sprite, *clip, report, seconds));
+  return 0;
+}
+
+volatile std::sig_atomic_t interrupts = 0;
+void note_interrupt(int) {
+  interrupts = interrupts + 1;
+  if (interrupts > 1) std::_Exit(130);
+}
+void (*before_int)(int) = SIG_DFL;
+void (*before_term)(int) = SIG_DFL;
+
+}  // namespace
+
+InterruptNote::InterruptNote() {
+  interrupts = 0;
+  before_int = std::signal(SIGINT, note_interrupt);
+  before_term = std::signal(SIGTERM, note_interrupt);
+}
+InterruptNote::~InterruptNote() {
+  std::signal(SIGINT, before_int);
+  std::signal(SIGTERM, before_term);
+}
+bool InterruptNote::is_set() noexcept { return interrupts != 0; }
+
+Result<Stage> make_stage(const Settings& settings, const std::vector<Vec2>& points,
+                         float body_length) {
+  Stage out;
+  out.is_given = true;
+  if (!settings.backdrop.empty()) {
+    auto backdrop = read_backdrop(settings.backdrop);
+    if (!backdrop) return backdrop.error();
+    out.backdrop = std::move(*backdrop);
+    out.picture = {out.backdrop.width(), out.backdrop.height(), {}};
+  } else if (!settings.size.empty()) {
+    const auto size = parse_size(settings.size);
+    if (!size) return size.error();
+    out.picture = {(*size)[0], (*size)[1], {}};
+  } else {
+    out.picture = picture_around(points, body_length);
+    out.is_given = false;
+    if (!settings.output.empty() && fs::path(settings.output).extension() != ".json" &&
+        (out.picture.width > 16384 || out.picture.height > 16384))
+      return Error{ErrorCode::BadContent,
+                   settings.script + ": a picture around it is " +
+                       std::to_string(out.picture.width) + " x " +
+                       std::to_string(out.picture.height) +
+                       ": at most 16384 px a side can be drawn; --size WxH shows a part"};
+  }
+  return out;
+}
+
+Result<void> write_film(const Settings& settings, const std::vector<FilmRole>& roles,
+                        const Stage& stage, Console& console) {
+  if (settings.output.empty()) return {};
+  const StageListener listener = console.listener();
+  listener.begin("film");
+  const InterruptNote note;
+  auto wrote = write_path_film(settings.output, roles, stage.picture, stage.backdrop,
+                               listener.progress, [] { return !InterruptNote::is_set(); });
+  if (wrote) listener.end("film", false);
+  return wrote;
+}
+
+PackClip to_pack_clip(const Sprite& sprite, const Clip& clip, std::string name) {
+  PackClip out{.name = std::move(name), .start = clip.ticks[0].position, .samples = {}};
+  for (std::size_t t = 0; t < clip.ticks.size(); t += sprite.samples()[out.samples.back()].duration)
+    out.samples.push_back(clip.ticks[t].sample);
+  return out;
+}
+
+Result<void> write_pack_clips(const Settings& settings, const Sprite& sprite,
+                              std::vector<PackClip> clips) {
+  auto all = load_clips(settings.film, sprite);
+  if (!all) return all.error();
+  for (PackClip& clip : clips) {
+    std::erase_if(*all, [&](const PackClip& old) { return old.name == clip.name; });
+    all->push_back(std::move(clip));
+  }
+  return save_clips(settings.film, settings.output, *all);
+}
+
+Result<int> run_path(const Settings& settings, Console& console) {
+  if (settings.film.empty()) return Error{ErrorCode::BadSetting, "a pack is due: PACK.vsp"};
+  if (settings.script.empty())
+    return Error{ErrorCode::BadSetting,
+                 "--script FILE is due: a path, one point `x y` a line, or a scene (.toml)"};
+  if (auto checked = check_output(settings.output); !checked) return checked.error();
+  const auto text = read_file(settings.script);
+  if (!text) return text.error();
+  const bool is_scene = fs::path(settings.script).extension() == ".toml";
+  auto done =
+      is_scene ? run_scene(settings, *text, console) : follow_path(settings, *text, console);
+  if (!done) return done;
   if (settings.output.empty())
     console.next("vsprite path " + shell_word(settings.film) + " --script " +
                  shell_word(settings.script) + " -o path.mp4");
   else
     console.next("vsprite play " + shell_word(settings.film));
-  return 0;
+  return done;
 }
 
 }  // namespace vsprite

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// The section CLIP (engine/PACK.md): read apart from the sprite, and written by copying a pack.
+
+#include "vsprite/clip.h"
+
+#include <set>
+
+#include "pack_format.h"
+
+namespace vsprite {
+namespace detail {
+namespace {
+
+constexpr std::uint32_t kMaxClips = 4096;
+constexpr std::uint32_t kMaxClipSamples = 1u << 24;
+constexpr std::size_t kClipBytes = 24;  // before the name
+
+Error bad_clip(const std::string& path, const std::string& what) {
+  return {ErrorCode::CorruptData, path + ": CLIP: " + what};
+}
+
+Result<PackContent> read_table(const ByteSource& source) {
+  PackContent content;
+  const Check bad = read_header(source, content);
+  if (!bad) return content;
+  const bool named = bad->issue.code == "unreadable";
+  return Error{bad->error, (named ? "" : source.name() + ": ") + bad->issue.message};
+}
+
+const SectionEntry* find_clips(const PackContent& content) {
+  for (const SectionEntry& entry : content.sections)
+    if (entry.name == "CLIP") return &entry;
+  return nullptr;
+}
+
+Bytes clip_bytes(std::span<const PackClip> clips) {
+  Bytes out;
+  out.put(static_cast<std::uint32_t>(clips.size()));
+  out.put(std::uint32_t{0});
+  for (const PackClip& clip : clips) {
+    out.put(clip.start.x);
+    out.put(clip.start.y);
+    out.put(static_cast<std::uint32_t>(clip.samples.size()));
+    out.put(static_cast<std::uint32_t>(clip.name.size()));
+    out.text(clip.name);
+    out.pad_to(4);
+    for (const std::uint32_t sample : clip.samples) out.put(sample);
+    out.pad_to(8);
+  }
+  return out;
+}
+
+Result<PackClip> read_clip(const std::string& path, Cursor& cursor, std::size_t index) {
+  const std::string which = "clip " + std::to_string(index);
+  PackClip clip;
+  if (cursor.left() < kClipBytes) return bad_clip(path, which + " is cut off");
+  clip.start.x = cursor.get<std::int64_t>();
+  clip.start.y = cursor.get<std::int64_t>();
+  const std::uint64_t count = cursor.get<std::uint32_t>(), name = cursor.get<std::uint32_t>();
+  const std::uint64_t padded = (name + 3) / 4 * 4;
+  const std::uint64_t due = (padded + 4 * count + 7) / 8 * 8;
+  if (name == 0 || name > kMaxText || count == 0 || count > kMaxClipSamples || due > cursor.left())
+    return bad_clip(path, which + ": " + std::to_string(count) + " samples and a name of " +
+                              std::to_string(name) + " bytes need " + std::to_string(due) +
+                              " bytes, " + std::to_string(cursor.left()) + " are left");
+  const auto text = cursor.take(padded);
+  clip.name.assign(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(name));
+  clip.samples.resize(count);
+  for (std::uint32_t& sample : clip.samples) sample = cursor.get<std::uint32_t>();
+  cursor.take(due - padded - 4 * count);
+  return clip;
+}
+
+// Meaning: what playing relies on.
+Result<void> check_clips(const std::string& path, std::span<const PackClip> clips,
+                         std::span<const Sample> samples) {
+  std::set<std::string_view> names;
+  if (clips.size() > kMaxClips)
+    return bad_clip(path, std::to_string(clips.size()) + " clips, at most 4096 are due");
+  for (const PackClip& clip : clips) {
+    if (clip.name.empty() || clip.name.size() > kMaxText || !names.insert(clip.name).second)
+      return bad_clip(path, "`" + clip.name + "`: names of 1 to 255 bytes are due, each once");
+    if (clip.samples.empty() || clip.samples.size() > kMaxClipSamples)
+      return bad_clip(path, clip.name + ": " + std::to_string(clip.samples.size()) + " samples");
+    for (const std::uint32_t sample : clip.samples)
+      if (sample >= samples.size() || samples[sample].kept == 0)
+        return bad_clip(path, clip.name + ": sample " + std::to_string(sample) +
+                                  " is not a kept one of this pack");
+  }
+  return {};
+}
+
+// Copies a section's bytes to `end`, in pieces.
+Result<void> copy_section(const ByteSource& source, const SectionEntry& entry, std::uint64_t to,
+                          FileWriter& file) {
+  std::vector<std::uint8_t> piece(std::min<std::uint64_t>(entry.bytes, 1 << 20));
+  for (std::uint64_t at = 0; at < entry.bytes; at += piece.size()) {
+    piece.resize(std::min<std::uint64_t>(piece.size(), entry.bytes - at));
+    if (auto read = source.read(entry.offset + at, piece); !read) return read;
+    if (auto wrote = file.write(to + at, piece); !wrote) return wrote;
+  }
+  return {};
+}
+
+Bytes header_bytes(const std::vector<SectionEntry>& sections, std::uint64_t end) {
+  Bytes out;
+  out.data.assign(kMagic.begin(), kMagic.end());
+  out.put(kPackMajor);
+  out.put(kPackMinor);
+  out.put(static_cast<std::uint32_t>(sections.size()));
+  out.put(end);
+  out.pad_to(kHeaderBytes);
+  for (const SectionEntry& entry : sections) {
+    out.text(entry.name);
+    out.put(std::uint16_t{1});
+    out.put(std::uint16_t{0});
+    out.put(entry.offset);
+    out.put(entry.bytes);
+    out.put(entry.sum);
+  }
+  Bytes sum;
+  sum.put(hash_bytes(out.data));
+  std::copy(sum.data.begin(), sum.data.end(), out.data.begin() + 24);
+  return out;
+}
+
+Result<void> copy_with_clips(const ByteSource& source, const std::string& to,
+                             std::span<const PackClip> clips) {
+  auto content = read_table(source);
+  if (!content) return content.error();
+  auto file = FileWriter::create(to);
+  if (!file) return file.error();
+  std::vector<SectionEntry> sections;
+  for (const SectionEntry& entry : content->sections)
+    if (entry.name != "CLIP") sections.push_back(entry);
+  const Bytes bytes = clip_bytes(clips);
+  std::uint64_t end = kHeaderBytes + (sections.size() + !clips.empty()) * kEntryBytes;
+  // The gaps between sections are zeros: a hole in a new file reads as such.
+  const auto place = [&end](std::uint64_t size) {
+    const std::uint64_t at = (end + kAlignment - 1) / kAlignment * kAlignment;
+    end = at + size;
+    return at;
+  };
+  for (SectionEntry& entry : sections) {
+    const std::uint64_t at = place(entry.bytes);
+    if (auto copied = copy_section(source, entry, at, *file); !copied) return copied;
+    entry.offset = at;
+  }
+  if (!clips.empty()) {
+    const std::uint64_t at = place(bytes.data.size());
+    if (auto wrote = file->write(at, bytes.data); !wrote) return wrote;
+    sections.push_back({"CLIP", at, bytes.data.size(), hash_bytes(bytes.data)});
+  }
+  if (auto wrote = file->write(0, header_bytes(sections, end).data); !wrote) return wrote;
+  return file->finish();
+}
+
+Result<std::vector<PackClip>> read_clips(const ByteSource& source, const Sprite& sprite) {
+  const std::string& path = source.name();
+  const auto content = read_table(source);
+  if (!content) return content.error();
+  std::vector<PackClip> clips;
+  const SectionEntry* entry = find_clips(*content);
+  if (entry == nullptr) return clips;
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 30;
+  if (entry->bytes < 8 || entry->bytes > kMost)
+    return bad_clip(path, std::to_string(entry->bytes) + " bytes: 8 to 2^30 are due");
+  std::vector<std::uint8_t> bytes(entry->bytes);
+  if (auto read = source.read(entry->offset, bytes); !read) return read.error();
+  if (hash_bytes(bytes) != entry->sum) return bad_clip(path, "its sum does not fit its bytes");
+  Cursor cursor(bytes);
+  const auto count = cursor.get<std::uint32_t>();
+  cursor.get<std::uint32_t>();
+  for (std::size_t k = 0; k < count; ++k) {
+    auto clip = read_clip(path, cursor, k);
+    if (!clip) return clip.error();
+    clips.push_back(std::move(*clip));
+  }
+  if (cursor.left() != 0)
+    return bad_clip(path, std::to_string(cursor.left()) + " bytes more than its clips need");
+  if (auto checked = check_clips(path, clips, sprite.samples()); !checked) return checked.error();
+  return clips;
+}
+
+}  // namespace
+}  // namespace detail
+
+Result<std::vector<PackClip>> load_clips(const std::string& path, const Sprite& sprite) {
+  try {
+    const auto source = detail::ByteSource::open(path);
+    if (!source) return source.error();
+    return detail::read_clips(*source, sprite);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory, path + ": out of memory while reading clips"};
+  }
+}
+
+Result<void> save_clips(const std::string& from, const std::string& to,
+                        std::span<const PackClip> clips) {
+  try {
+    const auto sprite = load_pack(from);
+    if (!sprite) return sprite.error();
+    if (auto checked = detail::check_clips(to, clips, sprite->samples()); !checked) return checked;
+    const auto source = detail::ByteSource::open(from);
+    if (!source) return source.error();
+    return detail::copy_with_clips(*source, to, clips);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory, to + ": out of memory while writing clips"};
+  }
+}
+
+ClipPlayer start_clip(const PackClip& clip) noexcept { return {.position = clip.start}; }
+
+bool step(const Sprite& sprite, const PackClip& clip, ClipPlayer& player) noexcept {
+  const Sample& sample = sprite.samples()[clip.samples[player.index]];
+  const bool is_over = player.shown >= sample.duration;
+  if (is_over && player.index + 1 == clip.samples.size()) return false;
+  player.position.x += sample.step_x;
+  player.position.y += sample.step_y;
+  if (is_over) {
+    ++player.index;
+    player.shown = 1;
+  } else {
+    ++player.shown;
+  }
+  return true;
+}
+
+}  // namespace vsprite
