@@ -56,8 +56,8 @@ Finding film_verdict(const Patient& p) {
             "copy it again from its source"};
   if (info.transfer != Transfer::Sdr)
     return {"film", kWarning,
-            text + ": high dynamic range is read as if it were not, so colours are flat",
-            "film with HDR switched off, or convert it to SDR first"};
+            text + ": high dynamic range is mapped to plain video by a fixed curve",
+            "highlights are compressed: with HDR switched off they would be as filmed"};
   if (info.interlaced)
     return {"film", kWarning, text + "; interlaced: moving edges are combs",
             "ffmpeg -i " + p.path + " -vf bwdif -c:v libx264 -crf 16 whole-frames.mp4"};
