@@ -237,11 +237,13 @@ Error nothing_left(const Extraction& result, const ExtractConfig& config) {
                                      " frames, " + why + "; film the subject whole, for longer"};
 }
 
-void add_mirrored(std::vector<SampleRow>& rows, std::vector<int>& labels, int clips) {
-  const std::size_t count = rows.size();
+void add_mirrored(Extraction& result) {
+  const std::size_t count = result.rows.size();
   for (std::size_t i = 0; i < count; ++i) {
-    rows.push_back(mirrored(rows[i], static_cast<int>(count + i), rows[i].clip + clips));
-    labels.push_back(labels[i]);
+    const SampleRow& row = result.rows[i];
+    result.rows.push_back(mirrored(row, static_cast<int>(count + i), row.clip + result.clips));
+    result.labels.push_back(result.labels[i]);
+    result.positions.push_back(result.positions[i]);
   }
 }
 
@@ -312,12 +314,13 @@ Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
       row.duration = kept.duration * config.stride;
       result.rows.push_back(std::move(row));
       result.labels.push_back(track->blob[f]->label);
+      result.positions.push_back(kept.frame);
     }
     set_velocities(clips[c], rate, config.sigma, std::span(result.rows).subspan(first), squares);
   }
   result.velocity_noise =
       rounded(std::sqrt(squares / static_cast<double>(result.rows.size())), 1000);
-  if (config.mirror) add_mirrored(result.rows, result.labels, result.clips);
+  if (config.mirror) add_mirrored(result);
   return result;
 }
 

@@ -15,6 +15,7 @@ target_sources(vsprite_precompute PRIVATE
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp
+  film/coverage.cpp
   film/subject.cpp
   film/extract.cpp
   film/match.cpp

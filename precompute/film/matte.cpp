@@ -15,6 +15,7 @@
 #include <array>
 
 #include "film/color.h"
+#include "film/coverage.h"
 #include "film/light.h"
 #include "film/unmix.h"
 
@@ -510,7 +511,8 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
 void Keyer::Impl::whole_frame(const Frame& frame, KeyedFrame& result) const {
   const std::size_t n = frame.y.size();
   result.crop = {0, 0, frame.width, frame.height};
-  result.straight = to_image(frame);
+  result.straight =
+      frame.rgba.empty() ? to_image(frame) : Image{frame.width, frame.height, frame.rgba};
   result.labels.assign(n, 1);
   Blob blob;
   blob.box = result.crop;
@@ -552,6 +554,8 @@ KeyedFrame Keyer::key(const Frame& frame, const Frame* before) {
   Impl& k = *impl_;
   if (k.screen->kind == KeyKind::None) {
     k.whole_frame(frame, result);
+  } else if (k.screen->kind == KeyKind::Alpha) {
+    if (!frame.rgba.empty()) detail::take_coverage(frame, k.screen->opening, result);
   } else {
     detail::find_silhouette(*k.screen, frame, k.silhouette);
     if (k.silhouette.empty) return result;

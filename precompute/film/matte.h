@@ -45,6 +45,7 @@ struct KeyedFrame {
   Image straight;                    ///< (crop) straight-alpha RGBA, screen's share removed
   std::vector<std::uint8_t> labels;  ///< (crop) 0 = none, else the blob's label
   std::vector<Blob> blobs;           ///< largest first, at most 32
+  int lost_before = 0;               ///< frames missing before it, by the time stamps
   double difference = 0;  ///< mean |Y - Y of the frame before| over the subject's box (duplicates)
 };
 

@@ -13,6 +13,7 @@
 #include <cstdio>
 
 #include "film/color.h"
+#include "film/coverage.h"
 #include "film/light.h"
 #include "film/silhouette.h"
 
@@ -577,6 +578,10 @@ Result<KeyConfig> parse_key(const std::string& text) {
     config.kind = KeyKind::Plate;
     return config;
   }
+  if (text == "alpha") {
+    config.kind = KeyKind::Alpha;
+    return config;
+  }
   if (text == "none") {
     config.kind = KeyKind::None;
     return config;
@@ -592,7 +597,7 @@ Result<KeyConfig> parse_key(const std::string& text) {
     return config;
   }
   return Error{ErrorCode::BadSetting,
-               "key: '" + text + "' is unknown; due: auto, plate, none or #RRGGBB"};
+               "key: '" + text + "' is unknown; due: auto, plate, alpha, none or #RRGGBB"};
 }
 
 Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfig& config) {
@@ -605,6 +610,13 @@ Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfi
     screen.reason = "none: the whole frame is the subject, as asked";
     return screen;
   }
+  const bool asked = config.kind == KeyKind::Alpha;
+  if (asked && frames[0].rgba.empty())
+    return Error{ErrorCode::BadContent,
+                 "no alpha: its format has no room for coverage; due: PNG, ProRes 4444, VP9 with "
+                 "alpha or the like, or --matte FILE"};
+  if (asked || (config.kind == KeyKind::Auto && detail::carries_coverage(frames)))
+    return detail::coverage_model(frames);
   std::vector<Grid> grids(frames.size());
   for (std::size_t f = 0; f < frames.size(); ++f) detail::make_grid(frames[f], grids[f]);
 

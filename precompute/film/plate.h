@@ -21,6 +21,7 @@ enum class KeyKind {
   Auto,   ///< measured; the reason is reported
   Color,  ///< a screen of one colour (blue, green, black, white, ...), given or measured
   Plate,  ///< a standing camera before anything
+  Alpha,  ///< the film brings its own coverage
   None    ///< the film has no background to remove: the whole frame is the subject
 };
 
@@ -31,7 +32,7 @@ struct KeyConfig {
   int sample_count = 50;  ///< frames looked at, spread over the film, 8..200
 };
 
-/// Parses `auto`, `plate`, `none` or `#RRGGBB`. Errors: BadSetting.
+/// Parses `auto`, `plate`, `alpha`, `none` or `#RRGGBB`. Errors: BadSetting.
 Result<KeyConfig> parse_key(const std::string& text);
 
 /// The background, per pixel, and how much it varies. Immutable once made.

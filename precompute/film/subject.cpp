@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace vsprite {
@@ -99,7 +100,8 @@ double usual_area(std::span<const FrameSummary> frames, const Still& still) {
       const Blob& blob = frames[f].blobs[b];
       if (first) cut.push_back(blob.area);
       first = false;
-      if (blob.touches_border) continue;
+      // A crumb beside a subject that the border cuts is not what is usually whole.
+      if (blob.touches_border || blob.area < kSpeck * cut.back()) continue;
       whole.push_back(blob.area);
       break;
     }
@@ -168,7 +170,15 @@ int margin(const Rect& box, int width, int height) {
   return std::min({box.x, box.y, width - (box.x + box.width), height - (box.y + box.height)});
 }
 
-// What is near the subject in one frame and gone into it in the next.
+// Pixels between two boxes; 0 where they meet.
+int gap(const Rect& a, const Rect& b) {
+  const int x = std::max({a.x - (b.x + b.width), b.x - (a.x + a.width), 0});
+  const int y = std::max({a.y - (b.y + b.height), b.y - (a.y + a.height), 0});
+  return std::max(x, y);
+}
+
+// What is near the subject in one frame and gone into it in the next. What vanishes elsewhere has
+// not gone into it.
 const Blob* merged_part(const FrameSummary& before, const Blob& subject_before,
                         const FrameSummary& now, const Blob& subject, double speck, double usual) {
   // A tail that parts from its body and joins it again is no other body: the whole stays usual.
@@ -177,6 +187,7 @@ const Blob* merged_part(const FrameSummary& before, const Blob& subject_before,
     if (&part == &subject_before || part.area < (part.touches_border ? speck : kBody * usual))
       continue;
     if (subject.area < subject_before.area + 0.5 * part.area && !part.touches_border) continue;
+    if (gap(part.box, subject.box) > 0) continue;
     const bool remains = std::any_of(now.blobs.begin(), now.blobs.end(), [&](const Blob& b) {
       return &b != &subject && unlike(b.area, part.area) < 2 &&
              distance(b, part) < longer_side(part);
@@ -221,22 +232,33 @@ class Meeting {
     const Blob* part = merged_part(frames_[f - 1], *before, frames_[f], blob,
                                    kSpeck * track_.usual_area, track_.usual_area);
     // A subject walks up to the border; what joins it to the border in one frame is something else.
-    const bool leapt = blob.touches_border && blob.area > kSwell * before->area &&
+    const bool leapt = blob.touches_border &&
+                       blob.area > kSwell * std::max(before->area, track_.usual_area) &&
                        margin(before->box, width_, height_) > 0.5 * track_.body;
     if (!part && !leapt) return;
     state_ = leapt || part->touches_border || blob.touches_border ? Fate::Touched : Fate::Hidden;
     since_ = f;
+    hand_.reset();
     area_ = std::max(before->area, track_.usual_area);
   }
 
-  bool over(std::size_t f, const Blob& blob) const {
-    if (blob.touches_border && state_ == Fate::Touched) return false;
-    if (blob.area > kSwell * area_) return false;
+  bool over(std::size_t f, const Blob& blob) {
+    const bool joined = blob.touches_border && state_ == Fate::Touched;
+    if (joined || blob.area > kSwell * area_) {
+      hand_.reset();
+      return false;
+    }
     if (state_ == Fate::Hidden) return true;
-    // A hand that let go is still in the way of the next clip until it has left.
-    return std::none_of(frames_[f].blobs.begin(), frames_[f].blobs.end(), [&](const Blob& b) {
-      return &b != &blob && b.touches_border && b.area > kSpeck * track_.usual_area;
-    });
+    // A hand that let go is still in the way of the next clip until it has left: the part that came
+    // off the subject is followed. What moves at the border elsewhere is none of its business.
+    const Blob* hand = nullptr;
+    const Rect& from = hand_ ? *hand_ : blob.box;
+    for (const Blob& b : frames_[f].blobs)
+      if (&b != &blob && b.touches_border && b.area > kSpeck * track_.usual_area &&
+          gap(b.box, from) <= 2 * track_.body && (!hand || gap(b.box, from) < gap(hand->box, from)))
+        hand = &b;
+    if (hand) hand_ = hand->box;
+    return !hand;
   }
 
   std::span<const FrameSummary> frames_;
@@ -246,6 +268,7 @@ class Meeting {
   Fate state_ = Fate::Kept;
   std::size_t since_ = 0;
   double area_ = 0;
+  std::optional<Rect> hand_;  // where what let go of the subject was last seen
 };
 
 Error no_subject(std::size_t frames) {

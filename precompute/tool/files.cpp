@@ -220,6 +220,19 @@ Result<std::uint64_t> hash_file(const std::string& path) {
   }
 }
 
+Result<std::uint64_t> hash_source(const FilmSource& source) {
+  const auto files = files_of(source);
+  if (!files) return files.error();
+  if (files->size() == 1) return hash_file(files->front());
+  std::string sums;
+  for (const std::string& file : *files) {
+    const auto sum = hash_file(file);
+    if (!sum) return sum.error();
+    sums += hex64(*sum);
+  }
+  return hash_bytes(sums);
+}
+
 std::uint64_t hash_bytes(std::string_view bytes) noexcept {
   return XXH3_64bits(bytes.data(), bytes.size());
 }

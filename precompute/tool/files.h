@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "film/source.h"
 #include "vsprite/result.h"
 
 namespace vsprite {
@@ -53,6 +54,9 @@ bool is_temporary_name(std::string_view name) noexcept;
 
 /// XXH3-64 of a file's content, read in pieces. Errors: NotFound, CannotRead.
 Result<std::uint64_t> hash_file(const std::string& path);
+/// Of a film its hash_file; of several files the sum of their sums, in order.
+/// Errors: those of hash_file and files_of.
+Result<std::uint64_t> hash_source(const FilmSource& source);
 std::uint64_t hash_bytes(std::string_view bytes) noexcept;
 /// 16 lower-case hex digits.
 std::string hex64(std::uint64_t value);

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kChunkMagic = 0x31444559454B5356;  // "VSKEYED1"
+constexpr std::uint64_t kChunkMagic = 0x32444559454B5356;  // "VSKEYED2"
 constexpr int kLevel = 1;  // the files live for a minute: speed, not size
 
 void put_compressed(ByteWriter& writer, const std::vector<std::uint8_t>& bytes) {
@@ -34,8 +34,8 @@ bool get_compressed(ByteReader& reader, std::vector<std::uint8_t>& bytes, std::s
 
 bool get_keyed(ByteReader& reader, KeyedFrame& frame) {
   std::uint32_t blobs = 0;
-  if (!reader.get(frame.index) || !reader.get(frame.crop) || !reader.get(frame.difference) ||
-      !reader.get(blobs) || !reader.get_array(frame.blobs, blobs))
+  if (!reader.get(frame.index) || !reader.get(frame.lost_before) || !reader.get(frame.crop) ||
+      !reader.get(frame.difference) || !reader.get(blobs) || !reader.get_array(frame.blobs, blobs))
     return false;
   const auto pixels =
       static_cast<std::size_t>(frame.crop.width) * static_cast<std::size_t>(frame.crop.height);
@@ -54,7 +54,11 @@ std::string chunk_name(int chunk) {
 }  // namespace
 
 FrameSummary summary_of(const KeyedFrame& frame, bool ground) {
-  FrameSummary summary{.index = frame.index, .blobs = frame.blobs, .difference = frame.difference};
+  FrameSummary summary{.index = frame.index,
+                       .blobs = frame.blobs,
+                       .difference = frame.difference,
+                       .ground = {},
+                       .lost_before = frame.lost_before};
   if (ground) summary.ground = ground_lines(frame);
   return summary;
 }
@@ -62,6 +66,7 @@ FrameSummary summary_of(const KeyedFrame& frame, bool ground) {
 std::string pack_keyed(const KeyedFrame& frame) {
   ByteWriter writer;
   writer.put(frame.index);
+  writer.put(frame.lost_before);
   writer.put(frame.crop);
   writer.put(frame.difference);
   writer.put(static_cast<std::uint32_t>(frame.blobs.size()));

@@ -47,7 +47,8 @@ Result<Json> preview_film(const Settings& settings, const std::string& film,
   auto background = background_of(settings.background);
   if (!background) return background.error();
   config.background = std::move(*background);
-  auto sampled = sample_frames(film, std::max(key->sample_count, settings.preview));
+  auto sampled =
+      sample_frames(source_of(settings, film), std::max(key->sample_count, settings.preview));
   if (!sampled) return sampled.error();
   const auto screen = measure_screen(*sampled, *key);
   if (!screen) return Error{screen.error().code, film + ": " + screen.error().message};

@@ -237,7 +237,7 @@ std::string find_work_folder(const std::string& work, const std::string& operand
   if (!output.empty()) return with_extension(output, ".work");
   const std::string name = without_trailing_slash(operand);
   std::error_code error;
-  if (fs::is_directory(name, error)) return name;
+  if (fs::is_directory(name, error) && !is_film_folder(name)) return name;
   if (fs::path(name).extension() == ".vsp") return with_extension(name, ".work");
   return fs::path(name).stem().string() + ".work";
 }

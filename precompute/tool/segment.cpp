@@ -44,6 +44,7 @@ int stride_of(const Settings& settings) { return settings.draft ? kDraftStride :
 struct KeyingItem {
   FramePointer frame, before;
   int position = 0;     ///< in the keyed store and among the summaries
+  int lost = 0;         ///< summaries that are missing before it
   bool stands = false;  ///< its chunk is on disk already
   std::string packed;
   FrameSummary summary;
@@ -104,6 +105,7 @@ class KeyingPass {
     // A draft passes over the frames between.
     for (int pass = read_ == 0 ? stride_ - 1 : 0; pass < stride_; ++pass) {
       const auto more = reader_.read(*frame);
+      lost_ += frame->lost_before;
       if (more && *more) continue;
       if (!more) fault_ = more.error();
       flow.stop();
@@ -115,12 +117,15 @@ class KeyingPass {
     item->before = std::move(last_);
     item->frame = last_ = std::move(frame);
     item->position = read_++;
+    item->lost = lost_ / stride_;
+    lost_ %= stride_;
     return item;
   }
 
   void key(KeyingItem& item) {
     if (item.stands) return;
-    const KeyedFrame keyed = keyers_.local().key(*item.frame, item.before.get());
+    KeyedFrame keyed = keyers_.local().key(*item.frame, item.before.get());
+    keyed.lost_before = item.lost;
     item.summary = summary_of(keyed, ground_);
     item.packed = pack_keyed(keyed);
     item.before.reset();
@@ -152,7 +157,7 @@ class KeyingPass {
   tbb::enumerable_thread_specific<Keyer> keyers_;
   const KeyedStore& store_;
   // Of the first filter.
-  int read_ = 0;
+  int read_ = 0, lost_ = 0;
   std::vector<FrameSummary> standing_;  ///< of the chunk that is being read, where it stands
   FramePointer last_;
   std::optional<Error> fault_;
@@ -254,14 +259,13 @@ Result<void> clear_sprites(const Project& project) {
 
 /// Cuts the rows with the numbers `due`, all of one chunk, in parallel; writes them together.
 Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& frames,
-                       const Extraction& extraction, const std::vector<std::size_t>& due, int first,
-                       int stride) {
+                       const Extraction& extraction, const std::vector<std::size_t>& due) {
   using Png = Result<std::vector<std::uint8_t>>;
   std::vector<Png> pictures(due.size(), Png(std::vector<std::uint8_t>{}));
   tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t k) {
     const SampleRow& row = extraction.rows[due[k]];
-    const auto& frame =
-        frames[static_cast<std::size_t>((row.frame - first) / stride % kChunkFrames)];
+    const int position = extraction.positions[due[k]];
+    const auto& frame = frames[static_cast<std::size_t>(position % kChunkFrames)];
     pictures[k] = encode_png(cut_sample(frame, extraction.labels[due[k]], row));
   });
   std::vector<NamedBytes> files;
@@ -276,14 +280,12 @@ Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& fr
 Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extraction& extraction,
                          bool resumed) {
   const auto& rows = extraction.rows;
-  const int first = run.first_frame, stride = stride_of(run.settings);
+  const auto chunk_of = [&](std::size_t row) { return extraction.positions[row] / kChunkFrames; };
   for (std::size_t begin = 0; begin < rows.size() && rows[begin].mirror_of < 0;) {
-    const int chunk = (rows[begin].frame - first) / stride / kChunkFrames;
+    const int chunk = chunk_of(begin);
     std::size_t end = begin;
     std::vector<std::size_t> due;
-    for (; end < rows.size() && rows[end].mirror_of < 0 &&
-           (rows[end].frame - first) / stride / kChunkFrames == chunk;
-         ++end) {
+    for (; end < rows.size() && rows[end].mirror_of < 0 && chunk_of(end) == chunk; ++end) {
       std::error_code error;
       if (!resumed || !fs::exists(run.project.sprite_path(rows[end].sample), error))
         due.push_back(end);
@@ -294,8 +296,7 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
         return Error{ErrorCode::CorruptData, run.project.path("keyed") + ": chunk " +
                                                  std::to_string(chunk) +
                                                  " was damaged meanwhile: run it again"};
-      if (auto cut = cut_chunk(run.project, *frames, extraction, due, first, stride); !cut)
-        return cut.error();
+      if (auto cut = cut_chunk(run.project, *frames, extraction, due); !cut) return cut.error();
     }
     begin = end;
     report(run,
@@ -328,6 +329,25 @@ Json segment_result(const std::string& name, const FilmInfo& info, const ScreenM
           {"draft", stride > 1}};
 }
 
+/// File name without folders; that of a folder of pictures is the folder's.
+std::string source_name(const std::string& path) {
+  const fs::path film(path);
+  return (film.has_filename() ? film : film.parent_path()).filename().string();
+}
+
+/// What the film is that plain ones are not.
+std::vector<std::string> notes_on(const FilmInfo& info) {
+  std::vector<std::string> notes;
+  if (info.transfer != Transfer::Sdr)
+    notes.push_back(std::string(info.transfer == Transfer::Hlg ? "HLG" : "PQ") +
+                    " is mapped to plain video by a fixed curve");
+  if (info.interlaced)
+    notes.push_back(
+        "the film is interlaced: its frames hold two moments each, and moving edges become combs; "
+        "due: ffmpeg -i FILM -vf bwdif out.mp4");
+  return notes;
+}
+
 SubjectChoice subject_of(const std::string& text) {
   if (text == "only") return {SubjectChoice::kOnly};
   if (text == "largest") return {SubjectChoice::kLargest};
@@ -340,18 +360,20 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   const auto key = parse_key(run.settings.key);
   if (!key) return key.error();
   // The film is opened before any thread is started: opening forks.
-  FilmSource source(run.film);
+  FilmSource source = source_of(run.settings, run.film);
   source.first = run.first_frame, source.end = run.end_frame;
   auto reader = FilmReader::open(source);
   if (!reader) return reader.error();
   const FilmInfo info = reader->info();
-  const std::string name = fs::path(run.film).filename().string();
+  const std::string name = source_name(run.film);
 
   const auto sampled = sample_frames(source, key->sample_count);
   if (!sampled) return sampled.error();
   report(run, kSampled);
   const auto screen = measure_screen(*sampled, *key);
   if (!screen) return Error{screen.error().code, run.film + ": " + screen.error().message};
+  if (run.listener.note)
+    for (const std::string& note : notes_on(info)) run.listener.note(note);
   if (run.listener.note) run.listener.note("background: " + screen->reason);
 
   const auto store = KeyedStore::open(run.project, origin);
@@ -389,6 +411,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   const auto dropped = write_dropped(run, *store, info, *summaries, *extraction);
   if (!dropped) return dropped.error();
   Json result = segment_result(name, info, *screen, *extraction, stride_of(run.settings));
+  result["surplus"] = reader->surplus();
   result["dropped"] = *dropped;
   return result;
 }

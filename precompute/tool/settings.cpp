@@ -141,13 +141,18 @@ constexpr std::string_view kSolve = " solve build play ";
 
 void add_stage_options(Row& t) {
   t.text("key", "KEY", &Settings::key,
-         "background: auto, plate (standing camera), none, or #RRGGBB",
+         "background: auto, plate (standing camera), alpha (the film's own), none, or #RRGGBB",
          " segment build play doctor ");
   t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
     if (const auto parsed = parse_key(v); !parsed) return parsed.error();
     s.key = v;
     return {};
   };
+  t.text("matte", "FILE", &Settings::matte,
+         "film or pictures beside the film whose brightness is the coverage: nothing is keyed",
+         " segment build play doctor ");
+  t.real("fps", "RATE", &Settings::fps, 1, 1000, false,
+         "pictures a second where the film is a row of pictures", " segment build play doctor ");
   t.flag("draft", &Settings::draft,
          "every second frame, pictures of at most 128 px: a first look in a third of the time",
          kSegment);
@@ -400,6 +405,13 @@ const Option* find_option(std::string_view name) {
   for (const Option& option : all_options())
     if (option.name == name) return &option;
   return nullptr;
+}
+
+FilmSource source_of(const Settings& settings, const std::string& film) {
+  FilmSource source(film);
+  source.matte = settings.matte;
+  source.fps = settings.fps;
+  return source;
 }
 
 Result<std::array<int, 2>> parse_size(const std::string& text) {

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "film/source.h"
 #include "vsprite/result.h"
 
 namespace vsprite {
@@ -29,6 +30,8 @@ struct Settings {
 
   // Making a sprite.
   std::string key = "auto";
+  std::string matte;  ///< a film or pictures whose brightness is the coverage; empty: none
+  double fps = 30;    ///< of pictures
   int max_size = 256;
   bool draft = false;
   std::string subject = "only";
@@ -136,6 +139,9 @@ const Option* find_option(std::string_view name);
 
 /// "1280x720" as {width, height}, 2..16384 each. Errors: BadSetting.
 Result<std::array<int, 2>> parse_size(const std::string& text);
+
+/// `film` with what the settings say about it.
+FilmSource source_of(const Settings& settings, const std::string& film);
 
 /// The candidate with the fewest edits, or empty if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);

@@ -70,11 +70,14 @@ Result<LoadedSprites*> sprites_of(StageRun& run) {
 
 Result<StageKey> segment_key(StageRun& run) {
   if (is_cast_file(run.film)) return cast_key(run);
-  const auto sum = hash_file(run.film);
-  if (!sum) return sum.error();
   const Settings& s = run.settings;
+  const FilmSource source = source_of(s, run.film);
+  const auto sum = hash_source(source);
+  if (!sum) return sum.error();
   return StageKey{"segment",
                   {{"key", s.key},
+                   {"matte", !s.matte.empty()},
+                   {"fps", is_picture_source(run.film) ? s.fps : 0},
                    {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
                    {"draft", s.draft},
                    {"subject", s.subject},

@@ -21,7 +21,7 @@ expect 3 vsprite doctor text.mp4
 prints "-> vsprite build FILM"
 mkdir folder && : >empty.mp4 && : >empty.vsp
 expect 3 vsprite build folder
-says "folder: is a folder, a film is due"; one_sentence
+says "folder: no film in this folder"; one_sentence
 expect 3 vsprite build empty.vsp
 says "empty.vsp: is a pack, a film is due: \`vsprite play empty.vsp\`"; one_sentence
 expect 3 vsprite build empty.mp4

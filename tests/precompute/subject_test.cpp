@@ -66,6 +66,44 @@ TEST(Subject, AHandEndsTheClipUntilItHasLeft) {
   }
 }
 
+// Things move at the border all the time, and one of them vanishes as the subject swells a little.
+TEST(Subject, WhatMovesAtTheBorderWithoutTouchingEndsNoClip) {
+  auto frames = walk(120);
+  for (int f = 20; f < 110; ++f)
+    if (f % 7 != 0) add(frames[static_cast<std::size_t>(f)], blob_at(30, 460 - f % 5, 80, 90));
+  frames[56].blobs = {blob_at(212, 240, 50, 44)};
+  const Track track = follow(frames);
+  EXPECT_EQ(std::count(track.fate.begin(), track.fate.end(), Fate::Kept), 120);
+}
+
+// The hand that let go has left; another one that stays at the border far away is not waited for.
+TEST(Subject, AClipGoesOnWhenTheHandThatTouchedHasLeft) {
+  auto frames = walk(120);
+  for (int f = 40; f < 120; ++f) {
+    auto& blobs = frames[static_cast<std::size_t>(f)].blobs;
+    const double x = blobs[0].anchor_x;
+    if (f >= 50 && f < 60) blobs = {blob_at(x, 130, 60, 262)};
+    if (f < 50 || (f >= 60 && f < 70))
+      add(frames[static_cast<std::size_t>(f)], blob_at(x, 80, 60, 180));
+    add(frames[static_cast<std::size_t>(f)], blob_at(600, 450, 90, 90));
+  }
+  const Track track = follow(frames, SubjectChoice::kLargest);
+  EXPECT_EQ(std::count(track.fate.begin(), track.fate.end(), Fate::Touched), 20);
+}
+
+// A fish too large for the picture, crumbs beside it: cut by the border, touched by nobody.
+TEST(Subject, ASubjectThatTheBorderCutsIsNotTouched) {
+  std::vector<FrameSummary> frames;
+  for (int i = 0; i < 60; ++i) {
+    FrameSummary frame{i, {}, 5.0};
+    add(frame, blob_at(i < 3 ? 222 : 200 - 0.1 * i, 240, 420 - i % 9, 300));
+    if (i % 2 == 0) add(frame, blob_at(500, 100, 30, 30));
+    frames.push_back(frame);
+  }
+  const Track track = follow(frames, SubjectChoice::kLargest);
+  EXPECT_EQ(std::count(track.fate.begin(), track.fate.end(), Fate::Border), 57);
+}
+
 TEST(Subject, WalkingOutOfThePictureIsNoTouch) {
   std::vector<FrameSummary> frames;
   for (int i = 0; i < 60; ++i) {

@@ -33,14 +33,21 @@ Result<Places> find_places(const Settings& settings, int first) {
     return Error{ErrorCode::BadSetting, needs_film
                                             ? "a film is due: `vsprite build FILM`"
                                             : "a work folder is due: FILM, PACK or --work DIR"};
-  if (needs_film && fs::is_directory(operand, error))
-    return Error{ErrorCode::BadFormat,
-                 operand + ": is a folder, a film is due: a video file such as MP4"};
+  if (needs_film && fs::is_directory(operand, error)) {
+    const auto clips = find_clips(operand);
+    if (!clips) return clips.error();
+  }
   if (needs_film && fs::path(operand).extension() == ".vsp")
     return Error{ErrorCode::BadFormat, operand + ": is a pack, a film is due: `vsprite play " +
                                            shell_word(operand) + "` plays a pack as it is"};
-  if (needs_film && !fs::exists(operand, error))
-    return Error{ErrorCode::NotFound, operand + ": no such file"};
+  if (needs_film && !fs::exists(operand, error)) {
+    const auto pictures = is_picture_source(operand)
+                              ? find_pictures(operand)
+                              : Result<std::vector<std::string>>(std::vector<std::string>{});
+    if (!pictures) return pictures.error();
+    if (pictures->empty() || pictures->front() == operand)
+      return Error{ErrorCode::NotFound, operand + ": no such file"};
+  }
   const std::string work = find_work_folder(settings.work, operand, settings.output);
   return Places{needs_film ? operand : "", work, find_pack_path(work, operand, settings.output)};
 }

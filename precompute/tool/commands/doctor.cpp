@@ -200,12 +200,12 @@ Result<int> run_doctor(const Settings& settings, Console& console) {
   Findings findings;
   std::error_code error;
   const std::string& operand = settings.film;
-  if (!operand.empty() && !fs::exists(operand, error))
+  if (!operand.empty() && !fs::exists(operand, error) && !is_picture_source(operand))
     return Error{ErrorCode::NotFound, operand + ": no such file or folder"};
   if (!settings.work.empty() && !fs::is_directory(settings.work, error))
     return Error{ErrorCode::NotFound, settings.work + ": no such folder"};
   check_machine(".", findings);
-  const bool folder = fs::is_directory(operand, error);
+  const bool folder = fs::is_directory(operand, error) && !is_film_folder(operand);
   const bool pack = !folder && fs::path(operand).extension() == ".vsp";
   if (pack) check_pack(operand, findings);
   Json measures;

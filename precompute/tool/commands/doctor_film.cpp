@@ -56,8 +56,8 @@ Finding film_verdict(const Patient& p) {
             "copy it again from its source"};
   if (info.transfer != Transfer::Sdr)
     return {"film", kWarning,
-            text + ": high dynamic range is read as if it were not, so colours are flat",
-            "film with HDR switched off, or convert it to SDR first"};
+            text + ": high dynamic range is mapped to plain video by a fixed curve",
+            "highlights are compressed: with HDR switched off they would be as filmed"};
   if (info.interlaced)
     return {"film", kWarning, text + "; interlaced: moving edges are combs",
             "ffmpeg -i " + p.path + " -vf bwdif -c:v libx264 -crf 16 whole-frames.mp4"};
@@ -274,14 +274,14 @@ void check_film(const Settings& settings, const std::string& path, Findings& fin
       "play it with another program, or convert it: ffmpeg -i FILE new.mp4";
   const auto key = parse_key(settings.key);
   if (!key) return broken(key.error(), "name a colour as #RRGGBB");
-  auto reader = FilmReader::open_bursts(path, kBursts, kBurstFrames);
+  auto reader = FilmReader::open_bursts(source_of(settings, path), kBursts, kBurstFrames);
   if (!reader) return broken(reader.error(), kConvert);
   Patient p;
   p.path = path;
   p.info = reader->info();
   p.fps = static_cast<double>(p.info.fps_numerator) / p.info.fps_denominator;
   p.seconds = p.info.counted_frames / p.fps;
-  const auto sampled = sample_frames(path, key->sample_count);
+  const auto sampled = sample_frames(source_of(settings, path), key->sample_count);
   if (!sampled) return broken(sampled.error(), kConvert);
   auto screen = measure_screen(*sampled, *key);
   if (!screen) {

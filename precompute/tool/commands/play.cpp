@@ -19,7 +19,7 @@ bool stands_in_full(const Settings& settings) {
   const auto project =
       Project::look(find_work_folder(settings.work, settings.film, settings.output));
   const Json* record = project ? project->record("segment") : nullptr;
-  const auto sum = hash_file(settings.film);
+  const auto sum = hash_source(source_of(settings, settings.film));
   if (record == nullptr || !sum) return false;
   const Json made = record->value("settings", Json::object());
   const Json inputs = record->value("inputs", Json::object());
@@ -33,9 +33,9 @@ Result<std::string> pack_of(const Settings& settings, Console& console) {
   if (settings.film.empty())
     return Error{ErrorCode::BadSetting, "a pack or a film is due: `vsprite play FILM`"};
   std::error_code error;
-  if (!fs::exists(settings.film, error))
+  if (!fs::exists(settings.film, error) && !is_picture_source(settings.film))
     return Error{ErrorCode::NotFound, settings.film + ": no such file"};
-  const bool folder = fs::is_directory(settings.film, error);
+  const bool folder = fs::is_directory(settings.film, error) && !is_film_folder(settings.film);
   if (!folder && fs::path(settings.film).extension() != ".vsp") {
     Settings build = settings;
     build.json = false;
