@@ -37,12 +37,15 @@ Material read_material(const Sprite& sprite) {
   Material m;
   m.costs.row_start = data.row_start;
   m.costs.transitions = data.transitions;
+  std::vector<std::string> tags;
   for (const Sample& s : data.samples) {
+    tags.push_back(data.tags[s.tag]);
     m.costs.kept.push_back(static_cast<std::uint8_t>(s.kept));
     m.velocities.push_back(s.velocity);
     m.skip_costs.push_back(s.skip_cost);
     m.durations.push_back(s.duration);
   }
+  m.costs.needed = needed_transitions(m.costs, tags);
   const SpeedScale speeds = measure_speeds(data.samples);
   m.usual = speeds.usual;
   m.v0 = usual_v0(speeds);

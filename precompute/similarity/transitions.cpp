@@ -437,10 +437,8 @@ Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDis
 
 std::vector<std::uint8_t> needed_transitions(const CostTable& costs,
                                              std::span<const std::string> tags) {
-  const bool tagged =
-      std::any_of(tags.begin(), tags.end(), [](const auto& t) { return !t.empty(); });
   const auto root = std::find(costs.kept.begin(), costs.kept.end(), 1) - costs.kept.begin();
-  if (!tagged || root == static_cast<std::ptrdiff_t>(costs.kept.size())) return {};
+  if (root == static_cast<std::ptrdiff_t>(costs.kept.size())) return {};
   std::vector<std::uint8_t> needed(costs.transitions.size(), 0);
   const auto need = [&](std::uint32_t from, std::uint32_t to) {
     for (std::uint32_t e = costs.row_start[from]; e < costs.row_start[from + 1]; ++e)

@@ -70,9 +70,10 @@ Result<CostTable> make_cost_table(const FeatureSet& set, std::span<const PairDis
                                   const TransitionConfig& config, TransitionStats& stats,
                                   const Classifier* classifier = nullptr);
 
-/// Of a cast the transitions that no mode's cap may cut, or a tag would be out of reach: from one
-/// tag to another the cheapest, and the cheapest without which a sample could not be reached or
-/// left. `tags`: (N). (transitions); empty where no sample has a tag.
+/// The transitions that no mode's cap may cut: the cheapest without which a sample could not be
+/// reached or left (a sprite that starts in a part which only dearer jumps leave would stay there),
+/// and in a cast the cheapest from one tag to another. `tags`: (N), empty where there is none.
+/// (transitions); empty where no sample is kept. Cost O(transitions log transitions).
 std::vector<std::uint8_t> needed_transitions(const CostTable& costs,
                                              std::span<const std::string> tags);
 
