@@ -60,7 +60,7 @@ TickTable make_tick_table(const SpriteData& data, const ControlMode& mode) {
   const auto n = static_cast<std::uint32_t>(data.samples.size());
   TickTable table{mode.headings + 2, mode.stages, mode.stages + 2, {}};
   table.lines.resize((n * table.stride() + 15) / 16);
-  std::uint32_t* at = table.lines.data()->words;
+  std::uint32_t* at = reinterpret_cast<std::uint32_t*>(table.lines.data());
   for (std::uint32_t i = 0; i < n; ++i) {
     const Sample& sample = data.samples[i];
     for (std::uint32_t g = 0; g < table.groups; ++g) {

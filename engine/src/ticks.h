@@ -42,7 +42,8 @@ struct TickTable {
 
   std::size_t stride() const noexcept { return std::size_t{groups} * words; }
   const std::uint32_t* record(std::uint32_t sample, std::uint32_t group) const noexcept {
-    return lines.data()->words + sample * stride() + group * words;
+    const auto* first = reinterpret_cast<const std::uint32_t*>(lines.data());
+    return first + sample * stride() + group * words;
   }
 };
 
