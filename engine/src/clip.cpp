@@ -104,28 +104,6 @@ Result<void> copy_section(const ByteSource& source, const SectionEntry& entry, s
   return {};
 }
 
-Bytes header_bytes(const std::vector<SectionEntry>& sections, std::uint64_t end) {
-  Bytes out;
-  out.data.assign(kMagic.begin(), kMagic.end());
-  out.put(kPackMajor);
-  out.put(kPackMinor);
-  out.put(static_cast<std::uint32_t>(sections.size()));
-  out.put(end);
-  out.pad_to(kHeaderBytes);
-  for (const SectionEntry& entry : sections) {
-    out.text(entry.name);
-    out.put(std::uint16_t{1});
-    out.put(std::uint16_t{0});
-    out.put(entry.offset);
-    out.put(entry.bytes);
-    out.put(entry.sum);
-  }
-  Bytes sum;
-  sum.put(hash_bytes(out.data));
-  std::copy(sum.data.begin(), sum.data.end(), out.data.begin() + 24);
-  return out;
-}
-
 Result<void> copy_with_clips(const ByteSource& source, const std::string& to,
                              std::span<const PackClip> clips) {
   auto content = read_table(source);

@@ -138,6 +138,9 @@ class Bytes {
   std::vector<std::uint8_t> data;
 };
 
+/// Header and section table of a file of `end` bytes, with their sum.
+Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end);
+
 /// Takes numbers off the front, little-endian. Pre: enough bytes are left.
 class Cursor {
  public:

@@ -141,25 +141,7 @@ class PackWriter {
   }
 
   Result<void> finish() {
-    Bytes out;
-    out.data.assign(kMagic.begin(), kMagic.end());
-    out.put(kPackMajor);
-    out.put(kPackMinor);
-    out.put(static_cast<std::uint32_t>(sections_.size()));
-    out.put(end_);
-    out.pad_to(kHeaderBytes);
-    for (const SectionEntry& entry : sections_) {
-      out.text(entry.name);
-      out.put(std::uint16_t{1});
-      out.put(std::uint16_t{0});
-      out.put(entry.offset);
-      out.put(entry.bytes);
-      out.put(entry.sum);
-    }
-    Bytes sum;
-    sum.put(hash_bytes(out.data));
-    std::copy(sum.data.begin(), sum.data.end(), out.data.begin() + 24);
-    if (auto written = file_.write(0, out.data); !written) return written;
+    if (auto written = file_.write(0, header_bytes(sections_, end_).data); !written) return written;
     return file_.finish();
   }
 
@@ -236,6 +218,28 @@ Result<void> write_pack(const std::string& path, const SpriteData& data,
 }
 
 }  // namespace
+
+Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end) {
+  Bytes out;
+  out.data.assign(kMagic.begin(), kMagic.end());
+  out.put(kPackMajor);
+  out.put(kPackMinor);
+  out.put(static_cast<std::uint32_t>(sections.size()));
+  out.put(end);
+  out.pad_to(kHeaderBytes);
+  for (const SectionEntry& entry : sections) {
+    out.text(entry.name);
+    out.put(std::uint16_t{1});
+    out.put(std::uint16_t{0});
+    out.put(entry.offset);
+    out.put(entry.bytes);
+    out.put(entry.sum);
+  }
+  Bytes sum;
+  sum.put(hash_bytes(out.data));
+  std::copy(sum.data.begin(), sum.data.end(), out.data.begin() + 24);
+  return out;
+}
 }  // namespace detail
 
 Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames) {

@@ -286,17 +286,7 @@ Json cast_result(const StageRun& run, const std::vector<Member>& members, const 
 Result<StageKey> cast_key(StageRun& run) {
   const auto clips = read_cast(run.film);
   if (!clips) return clips.error();
-  const Settings& s = run.settings;
-  StageKey key{"segment",
-               {{"key", s.key},
-                {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
-                {"draft", s.draft},
-                {"subject", s.subject},
-                {"anchor", s.anchor},
-                {"mirror", s.mirror},
-                {"smooth", s.smooth},
-                {"min-clip", s.min_clip}},
-               Json::object()};
+  StageKey key{"segment", segment_settings(run.settings), Json::object()};
   key.settings["cast"] = Json::array();
   for (const CastClip& clip : *clips) {
     Json entry = {{"file", clip.file}, {"frames", {clip.first, clip.last}}, {"tag", clip.tag},

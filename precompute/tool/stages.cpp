@@ -74,19 +74,11 @@ Result<StageKey> segment_key(StageRun& run) {
   const FilmSource source = source_of(s, run.film);
   const auto sum = hash_source(source);
   if (!sum) return sum.error();
-  return StageKey{"segment",
-                  {{"key", s.key},
-                   {"matte", !s.matte.empty()},
-                   {"fps", is_picture_source(run.film) ? s.fps : 0},
-                   {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
-                   {"draft", s.draft},
-                   {"subject", s.subject},
-                   {"anchor", s.anchor},
-                   {"mirror", s.mirror},
-                   {"smooth", s.smooth},
-                   {"min-clip", s.min_clip},
-                   {"range", {run.first_frame, run.end_frame}}},
-                  {{"film", hex64(*sum)}}};
+  StageKey key{"segment", segment_settings(s), {{"film", hex64(*sum)}}};
+  key.settings["matte"] = !s.matte.empty();
+  key.settings["fps"] = is_picture_source(run.film) ? s.fps : 0;
+  key.settings["range"] = {run.first_frame, run.end_frame};
+  return key;
 }
 
 Result<Json> segment(StageRun& run) {
@@ -374,6 +366,14 @@ Result<StageOutcome> run_stage(StageRun& run, int index) {
 }
 
 }  // namespace
+
+Json segment_settings(const Settings& s) {
+  return {
+      {"key", s.key},       {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
+      {"draft", s.draft},   {"subject", s.subject},
+      {"anchor", s.anchor}, {"mirror", s.mirror},
+      {"smooth", s.smooth}, {"min-clip", s.min_clip}};
+}
 
 TransitionConfig transition_config(const Settings& settings) {
   TransitionConfig config;

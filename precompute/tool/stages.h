@@ -67,6 +67,8 @@ inline constexpr int kDraftStride = 2, kDraftSize = 128;
 /// settings.
 Result<Json> segment_film(StageRun& run, const std::string& origin);
 
+/// What the stage `segment` depends on in every kind of film and in a cast.
+Json segment_settings(const Settings& settings);
 /// What the stage `solve` depends on, beside its inputs.
 Json solve_settings(const Settings& settings);
 /// T and velocities -> values.bin: both modes, and which directions each serves (control.cpp).
