@@ -177,7 +177,12 @@ Result<void> sync_folder(const std::string& folder) {
 
 Result<void> make_folder(const std::string& path) {
   std::error_code error;
-  fs::create_directories(path, error);
+  fs::create_directory(path, error);
+  const fs::path above =
+      fs::path(path.ends_with('/') ? path.substr(0, path.size() - 1) : path).parent_path();
+  if (error == std::errc::no_such_file_or_directory)
+    return Error{ErrorCode::CannotCreate,
+                 path + ": cannot be created: there is no folder " + above.string()};
   if (error)
     return Error{ErrorCode::CannotCreate, path + ": cannot be created: " + error.message()};
   return {};

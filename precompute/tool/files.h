@@ -41,7 +41,8 @@ Result<void> write_files(const std::vector<NamedBytes>& files);
 /// Makes the names in `folder` durable. Errors: CannotWrite.
 Result<void> sync_folder(const std::string& folder);
 
-/// Makes `path` and the folders above it. Errors: CannotCreate.
+/// Makes `path` if it is not there; a missing folder above it is more likely a slip of the pen than
+/// a wish. Errors: CannotCreate.
 Result<void> make_folder(const std::string& path);
 
 /// Removes the temporaries that dead processes left in `folder` (names that hold `.tmp.PID`; only

@@ -38,6 +38,9 @@ says "no film has been segmented here"; one_sentence
 film blank blank.mp4 100
 expect 3 vsprite build blank.mp4
 says "blank.mp4"; one_sentence
+expect 73 vsprite build blank.mp4 -o nowhere/blank.vsp
+says "there is no folder nowhere"; one_sentence
+[ -e nowhere ] && fail "a folder was made that nobody asked for"
 film two two.mp4 100
 expect 3 vsprite build two.mp4
 says "two.mp4: several subjects"; says "two.work/subjects.png shows those of frame"; one_sentence

@@ -160,7 +160,8 @@ void check_stage(const Project& project, const char* stage, const std::string& s
 template <class T>
 void check_file(const Result<T>& file, Findings& findings, const char* remedy) {
   if (file || file.error().code == ErrorCode::NotFound) return;  // absence is the stage's finding
-  findings.push_back({"work", kBroken, file.error().message, remedy});
+  const bool said = file.error().message.find("`vsprite ") != std::string::npos;
+  findings.push_back({"work", kBroken, file.error().message, said ? "" : remedy});
 }
 
 void check_work(const std::string& folder, Findings& findings) {
