@@ -10,6 +10,7 @@
 #include <set>
 
 #include "film/match.h"
+#include "film/source.h"
 #include "tool/cast_file.h"
 
 namespace vsprite {
@@ -35,6 +36,8 @@ Settings settings_of(const Settings& settings, const CastClip& clip) {
   Settings own = settings;
   if (!clip.key.empty()) own.key = clip.key;
   if (!clip.subject.empty()) own.subject = clip.subject;
+  own.matte = clip.matte;
+  if (clip.fps > 0) own.fps = clip.fps;
   own.mirror = false;  // mirrored samples are made when all are numbered
   return own;
 }
@@ -287,14 +290,21 @@ Result<StageKey> cast_key(StageRun& run) {
   const auto clips = read_cast(run.film);
   if (!clips) return clips.error();
   StageKey key{"segment", segment_settings(run.settings), Json::object()};
+  if (!run.settings.matte.empty())
+    return Error{
+        ErrorCode::BadSetting,
+        "--matte: the mattes of a cast stand with its clips: `matte = \"walk_matte.mp4\"`"};
   key.settings["cast"] = Json::array();
   for (const CastClip& clip : *clips) {
     Json entry = {{"file", clip.file}, {"frames", {clip.first, clip.last}}, {"tag", clip.tag},
                   {"key", clip.key},   {"subject", clip.subject},           {"match", clip.match}};
     if (clip.mirror) entry["mirror"] = *clip.mirror;
     if (clip.velocity) entry["velocity"] = *clip.velocity;
+    if (!clip.matte.empty()) entry["matte"] = true;
+    const Settings own = settings_of(run.settings, clip);
+    if (is_picture_source(clip.path)) entry["fps"] = own.fps;
     key.settings["cast"].push_back(std::move(entry));
-    const auto sum = hash_file(clip.path);
+    const auto sum = hash_source(source_of(own, clip.path));
     if (!sum) return sum.error();
     key.inputs[clip.file] = hex64(*sum);
   }

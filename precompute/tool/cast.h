@@ -15,7 +15,7 @@
 
 namespace vsprite {
 
-/// What the stage depends on. Errors: those of read_cast and hash_file.
+/// What the stage depends on. Errors: those of read_cast and hash_source, and BadSetting (--matte).
 Result<StageKey> cast_key(StageRun& run);
 
 /// Errors: those of the first clip that cannot be used, after the others were segmented.

@@ -11,8 +11,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "film/source.h"
 #include "tool/files.h"
 #include "tool/settings.h"
+#include "tool/work_files.h"
 
 namespace vsprite {
 namespace {
@@ -50,6 +52,15 @@ class Table {
     const auto found = node->value_exact<bool>();
     found ? void(value = *found) : due(*node, name, "true or false");
     return true;
+  }
+  void number(const char* name, double low, double high, double& value) {
+    const toml::node* node = table_.get(name);
+    if (!node) return;
+    const auto found = node->value<double>();
+    if (found && *found >= low && *found <= high)
+      value = *found;
+    else
+      due(*node, name, "a number from " + number_text(low) + " to " + number_text(high));
   }
   /// Two numbers, `low` <= each <= `high`; false where there are none.
   bool pair(const char* name, double low, double high, bool whole, const std::string& what,
@@ -110,6 +121,8 @@ CastClip read_clip(Table& table, const fs::path& folder, bool match) {
   table.text("tag", clip.tag);
   table.text("key", clip.key);
   table.text("subject", clip.subject);
+  table.text("matte", clip.matte);
+  table.number("fps", 1, 1000, clip.fps);
   table.flag("match", clip.match);
   bool mirror = false;
   if (table.flag("mirror", mirror)) clip.mirror = mirror;
@@ -135,6 +148,7 @@ CastClip read_clip(Table& table, const fs::path& folder, bool match) {
   check_setting(table, "key", clip.key);
   check_setting(table, "subject", clip.subject);
   clip.path = (folder / clip.file).string();
+  if (!clip.matte.empty()) clip.matte = (folder / clip.matte).string();
   return clip;
 }
 
@@ -165,19 +179,42 @@ Result<std::vector<CastClip>> parse_cast(const std::string& text, const std::str
   if (!head.problem().empty()) return Error{ErrorCode::BadContent, head.problem()};
   std::vector<CastClip> clips;
   for (const toml::node& node : *list) {
-    Table table(*node.as_table(), path,
-                {"file", "frames", "tag", "key", "subject", "mirror", "velocity", "match"});
+    Table table(
+        *node.as_table(), path,
+        {"file", "frames", "tag", "key", "subject", "mirror", "velocity", "match", "matte", "fps"});
     clips.push_back(read_clip(table, fs::path(path).parent_path(), match));
     if (!table.problem().empty()) return Error{ErrorCode::BadContent, table.problem()};
     std::error_code error;
-    if (!fs::exists(clips.back().path, error))
-      return Error{ErrorCode::NotFound, clips.back().path + ": no such file; " + path + ":" +
-                                            std::to_string(node.source().begin.line) + " names it"};
+    for (const std::string& file : {clips.back().path, clips.back().matte})
+      if (!file.empty() && !fs::exists(file, error) && !is_picture_source(file))
+        return Error{ErrorCode::NotFound, file + ": no such file; " + path + ":" +
+                                              std::to_string(node.source().begin.line) +
+                                              " names it"};
   }
   return clips;
 }
 
+bool is_cast(const std::string& path) {
+  if (is_cast_file(path)) return true;
+  if (!is_film_folder(path)) return false;
+  const auto clips = find_clips(path);
+  return clips && clips->front() != path;
+}
+
 Result<std::vector<CastClip>> read_cast(const std::string& path) {
+  if (!is_cast_file(path)) {
+    const auto files = find_clips(path);
+    if (!files) return files.error();
+    std::vector<CastClip> clips;
+    for (const std::string& file : *files) {
+      CastClip clip;
+      clip.file = fs::path(file).filename().string();
+      clip.path = file;
+      clip.match = false;
+      clips.push_back(std::move(clip));
+    }
+    return clips;
+  }
   const auto text = read_file(path);
   if (!text) return text.error();
   return parse_cast(*text, path);

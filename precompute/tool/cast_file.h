@@ -37,18 +37,23 @@ struct CastClip {
   std::string tag;                                ///< empty: none
   std::string key;                                ///< empty: the setting
   std::string subject;                            ///< empty: the setting
+  std::string matte;                              ///< read from there; empty: the clip is keyed
+  double fps = 0;                                 ///< of a picture sequence; 0: the setting
   std::optional<bool> mirror;                     ///< empty: the setting
   std::optional<std::array<double, 2>> velocity;  ///< px/s of its film; empty: as it moved
   bool match = true;
 };
 
-/// True where `path` is that of a cast: it ends in `.toml`.
+/// True where `path` ends in `.toml`.
 bool is_cast_file(const std::string& path);
+/// True where `path` is a cast: such a file, or a folder of films and of folders of pictures.
+bool is_cast(const std::string& path);
 
 /// At least one clip. `path` names the text in messages, and its folder is where files are looked
 /// for. Errors: BadContent as `path:line:column: ...`; NotFound (a file that is not there).
 Result<std::vector<CastClip>> parse_cast(const std::string& text, const std::string& path);
-/// The same from the file. Errors: also NotFound, CannotRead.
+/// The same from the file. Of a folder: its clips in natural order, untagged and unmatched, since
+/// they are of one shoot. Errors: also NotFound, CannotRead.
 Result<std::vector<CastClip>> read_cast(const std::string& path);
 
 }  // namespace vsprite

@@ -295,7 +295,8 @@ void add_use_options(Row& t) {
 }
 
 void add_path_options(Row& t) {
-  t.text("script", "FILE", &Settings::script, "a path: one point `x y` a line, output px; or a scene (.toml)", " path ");
+  t.text("script", "FILE", &Settings::script,
+         "a path: one point `x y` a line, output px; or a scene (.toml)", " path ");
   t.text("backdrop", "FILE", &Settings::backdrop,
          "picture (.png) behind the sprite, or a film that is shown over and over", " path ");
   t.text(

@@ -69,7 +69,7 @@ Result<LoadedSprites*> sprites_of(StageRun& run) {
 // ---- segment ----
 
 Result<StageKey> segment_key(StageRun& run) {
-  if (is_cast_file(run.film)) return cast_key(run);
+  if (is_cast(run.film)) return cast_key(run);
   const Settings& s = run.settings;
   const FilmSource source = source_of(s, run.film);
   const auto sum = hash_source(source);
@@ -84,7 +84,7 @@ Result<StageKey> segment_key(StageRun& run) {
 Result<Json> segment(StageRun& run) {
   run.sprites.reset();
   run.sprites_sum.reset();
-  if (is_cast_file(run.film)) return segment_cast(run);
+  if (is_cast(run.film)) return segment_cast(run);
   const auto key = segment_key(run);
   if (!key) return key.error();
   const Json origin = {

@@ -84,6 +84,31 @@ expect 0 vsprite build ten.toml
 connected ten.work
 awk -F, '$1 >= 52 && $2 >= 48 && $2 < $1 { closes = 1 } END { exit !closes }' transitions.csv || fail "a loop of ten frames does not close"
 
+# A folder of clips in natural order: two films and a folder of pictures; no tags, nothing matched.
+mkdir -p clips/take_10
+film circle clips/take_2.mp4 120
+film circle clips/take_1.mp4 60
+ffmpeg -nostdin -v error -i clips/take_1.mp4 clips/take_10/%03d.png || fail "ffmpeg"
+expect 0 vsprite build clips --fps 25 --json
+is_json /cast/2/file
+awk -F, 'NR > 1 && $13 != last { order = order " " $13; last = $13 } END { exit order != " take_1.mp4 take_2.mp4 take_10" }' \
+  clips.work/samples.csv || fail "the clips are not in natural order"
+[ -s clips.vsp ] || fail "no pack"
+expect 0 vsprite doctor clips --fps 25
+prints "take_10"; prints "segment: up to date"
+expect 2 vsprite segment clips --matte walk.mp4
+says "the mattes of a cast stand with its clips"; one_sentence
+
+# A clip may have its matte beside it: nothing is keyed.
+ffmpeg -nostdin -v error -i walk.mp4 -vf "format=gbrp,geq=r=0:g=0:b=0,drawbox=50:40:40:50:white:fill" -c:v ffv1 walk_matte.mkv || fail "ffmpeg"
+printf '[[clip]]\nfile = "walk.mp4"\nmatte = "walk_matte.mkv"\ntag = "walk"\nvelocity = [60, 0]\n' >matte.toml
+expect 0 vsprite segment matte.toml --json
+is_json /cast/0/background
+grep -q 'nothing is keyed' "$room/stdout" || fail "the clip was keyed although its matte stands beside it"
+rm walk_matte.mkv
+expect 66 vsprite segment matte.toml
+says "walk_matte.mkv: no such file; matte.toml:1 names it"; one_sentence
+
 # Bad casts: one sentence each.
 bad() {  # CODE TEXT SAYS
   printf "$2" >bad.toml

@@ -100,7 +100,7 @@ namespace {
 Result<int> run_preview(const Settings& settings, Console& console) {
   const auto places = find_places(settings, kSegment);
   if (!places) return places.error();
-  if (is_cast_file(places->film))
+  if (is_cast(places->film))
     return Error{ErrorCode::BadFormat,
                  places->film + ": is a cast, with --preview a film is due: one of its clips"};
   const std::string output = settings.output.empty()

@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <set>
 
+#include "tool/cast_file.h"
 #include "tool/commands/verbs.h"
 #include "tool/pictures.h"
 #include "tool/project.h"
@@ -142,7 +143,7 @@ void check_stage(const Project& project, const char* stage, const std::string& s
   std::string changed;
   const Json inputs = record->value("inputs", Json::object());
   for (const auto& [name, sum] : inputs.items()) {
-    if (name == "film") continue;
+    if (std::string_view(stage) == "segment") break;  // films may have gone, their sprites stay
     const auto now = name == "sprites" ? Result<std::string>(sprites) : project.file_sum(name);
     if (!now || sum != *now) changed += (changed.empty() ? "" : ", ") + name;
   }
@@ -195,6 +196,27 @@ void check_work(const std::string& folder, Findings& findings) {
     check_stage(*project, stage, sum ? *sum : "", due, findings, due);
 }
 
+/// A film, or every clip of a cast.
+void check_films(const Settings& settings, const std::string& path, Findings& findings,
+                 Json& measures) {
+  if (!is_cast(path)) return check_film(settings, path, findings, measures);
+  const auto clips = read_cast(path);
+  if (!clips) {
+    findings.push_back({"cast", kBroken, clips.error().message, "mend that line"});
+    return;
+  }
+  measures = Json::array();
+  for (const CastClip& clip : *clips) {
+    Settings own = settings;
+    if (!clip.key.empty()) own.key = clip.key;
+    if (clip.fps > 0) own.fps = clip.fps;
+    own.matte = clip.matte;
+    Json one;
+    check_film(own, clip.path, findings, one);
+    measures.push_back(std::move(one));
+  }
+}
+
 }  // namespace
 
 Result<int> run_doctor(const Settings& settings, Console& console) {
@@ -210,7 +232,7 @@ Result<int> run_doctor(const Settings& settings, Console& console) {
   const bool pack = !folder && fs::path(operand).extension() == ".vsp";
   if (pack) check_pack(operand, findings);
   Json measures;
-  if (!operand.empty() && !folder && !pack) check_film(settings, operand, findings, measures);
+  if (!operand.empty() && !folder && !pack) check_films(settings, operand, findings, measures);
   if (!operand.empty() || !settings.work.empty()) {
     const std::string work = find_work_folder(settings.work, operand, {});
     if (folder || !settings.work.empty() || fs::is_directory(work, error))

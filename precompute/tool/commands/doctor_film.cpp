@@ -275,7 +275,10 @@ void check_film(const Settings& settings, const std::string& path, Findings& fin
   const auto key = parse_key(settings.key);
   if (!key) return broken(key.error(), "name a colour as #RRGGBB");
   auto reader = FilmReader::open_bursts(source_of(settings, path), kBursts, kBurstFrames);
-  if (!reader) return broken(reader.error(), kConvert);
+  if (!reader)
+    return broken(reader.error(), reader.error().code == ErrorCode::NotFound
+                                      ? "look at the name, and at the folder you are in"
+                                      : kConvert);
   Patient p;
   p.path = path;
   p.info = reader->info();

@@ -19,11 +19,12 @@ bool stands_in_full(const Settings& settings) {
   const auto project =
       Project::look(find_work_folder(settings.work, settings.film, settings.output));
   const Json* record = project ? project->record("segment") : nullptr;
-  const auto sum = hash_source(source_of(settings, settings.film));
-  if (record == nullptr || !sum) return false;
+  if (record == nullptr) return false;
   const Json made = record->value("settings", Json::object());
+  if (is_cast(settings.film)) return !made.value("draft", true) && made.contains("cast");
+  const auto sum = hash_source(source_of(settings, settings.film));
+  if (!sum) return false;
   const Json inputs = record->value("inputs", Json::object());
-  if (is_cast_file(settings.film)) return !made.value("draft", true) && made.contains("cast");
   return !made.value("draft", true) && inputs.value("film", Json()) == hex64(*sum);
 }
 
