@@ -247,6 +247,8 @@ void read(const Target& target, std::uint8_t* rgba) {
   glBindFramebuffer(GL_FRAMEBUFFER, before);
 }
 
+void finish() { glFinish(); }
+
 void blend(BlendMode mode) {
   if (mode == BlendMode::Replace) {
     glDisable(GL_BLEND);

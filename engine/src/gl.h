@@ -74,6 +74,8 @@ void stretch(const Target& from, Id window, const Rect& place);
 void clear(float r, float g, float b, float a);
 void read(const Target& target, std::uint8_t* rgba);
 
+void finish();
+
 void blend(BlendMode mode);
 
 Stream make_stream(int vectors, bool instanced);
