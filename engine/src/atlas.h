@@ -7,6 +7,7 @@
 // went unused longest is emptied: a film plays on, so its pictures leave together as they came.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -28,6 +29,9 @@ struct KeyHash {
 struct AtlasSlot {
   int page = 0;
   Rect rect;
+  /// The four corners of the picture that hold nothing: texels along either side, clockwise from
+  /// the top left.
+  std::array<float, 4> cuts{};
 };
 
 class Atlas {
@@ -37,6 +41,9 @@ class Atlas {
 
   /// Counts as a use of its page.
   std::optional<AtlasSlot> find(const TextureKey& key) noexcept;
+  void set_cuts(const TextureKey& key, const std::array<float, 4>& cuts) {
+    slots_[key].cuts = cuts;
+  }
   bool has(const TextureKey& key) const noexcept { return slots_.count(key) != 0; }
 
   /// What became of the page of a new slot.

@@ -1,12 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// Porter & Duff, "Compositing digital images", SIGGRAPH 1984, in linear light. One canvas pixel at
-// a time, in float; fast enough for sheets and headless films.
+// Porter & Duff, "Compositing digital images", SIGGRAPH 1984, in linear light. Pictures at their
+// own size go by rows, in integers (blend_rows.h); enlarged and reduced ones, and pixels of a
+// canvas that is not opaque, one at a time in float: fast enough for sheets and headless films.
 #include "vsprite/compose.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "blend_rows.h"
 
 namespace vsprite {
 namespace {
@@ -123,6 +127,158 @@ Reach reach(double origin, double scale, int count, int canvas) {
   return {inside(std::floor(origin - soft)), inside(std::ceil(origin + count * scale + soft))};
 }
 
+// The canvas pixel under `over`.
+void put_over(std::uint8_t* pixel, const Light& over, Blend blend) {
+  Light under;
+  accumulate(under, pixel, 1, blend);
+  const float rest = 1 - over.a;
+  store(pixel,
+        {over.r + rest * under.r, over.g + rest * under.g, over.b + rest * under.b,
+         over.a + rest * under.a},
+        blend);
+}
+
+void draw_scaled(Image& canvas, ImageView picture, Vec2 top_left, const DrawOptions& options) {
+  const double scale = options.scale;
+  const float opacity = std::clamp(options.opacity, 0.0f, 1.0f);
+  const Reach columns = reach(top_left.x, scale, picture.width, canvas.width);
+  const Reach rows = reach(top_left.y, scale, picture.height, canvas.height);
+  for (int y = rows.first; y < rows.last; ++y) {
+    const Footprint down = footprint(y, top_left.y, scale, picture.height);
+    for (int x = columns.first; x < columns.last; ++x) {
+      const Footprint across = footprint(x, top_left.x, scale, picture.width);
+      const Light over = sample_picture(picture, across, down, options.blend);
+      const float a = over.a * opacity;
+      if (a <= 0) continue;
+      std::uint8_t* pixel = canvas.rgba.data() + (std::ptrdiff_t{y} * canvas.width + x) * 4;
+      put_over(pixel, {over.r * opacity, over.g * opacity, over.b * opacity, a}, options.blend);
+    }
+  }
+}
+
+// One axis of a picture at a place between pixels, in 1/256: canvas pixel `first` + i lies between
+// the picture's pixels i - 1, which weighs `left`, and i.
+struct Place {
+  int first = 0, count = 0;
+  std::uint16_t left = 0;
+};
+
+Place place_of(float top_left, int picture, int beyond) {
+  const auto fixed = static_cast<int>(std::lround(double{top_left} * 256));
+  Place out{fixed >> 8, picture, static_cast<std::uint16_t>(fixed & 255)};
+  if (out.left != 0) out.count += beyond;
+  return out;
+}
+
+constexpr int kChunk = 256;                       // pixels of a row that are worked on at a time
+constexpr std::size_t kRoom = 4 * (kChunk + 32);  // with what a vector may read and write beyond
+
+// The picture's pixels [from - 1, from + count) of row `y`, clear ones outside.
+void take_row(const ImageView& picture, int y, int from, int count, std::uint8_t* out) {
+  const int left = from - 1;
+  const int first = std::max(left, 0);
+  const int last = std::min(from + count, picture.width);
+  if (y < 0 || y >= picture.height || first >= last) {
+    std::memset(out, 0, 4 * static_cast<std::size_t>(count + 1));
+    return;
+  }
+  if (first > left) std::memset(out, 0, 4);
+  std::memcpy(out + 4 * (first - left), picture.pixel(first, y),
+              4 * static_cast<std::size_t>(last - first));
+  if (last < from + count) std::memset(out + 4 * (last - left), 0, 4);
+}
+
+void put_deep(std::uint8_t* canvas, const detail::Deep* over, std::size_t count) {
+  for (std::size_t done = 0; done < count; ++done) {
+    done += detail::over_deep(canvas + 4 * done, over + 4 * done, count - done);
+    if (done == count) return;
+    const detail::Deep* p = over + 4 * done;  // the canvas is not opaque here
+    const auto part = [](detail::Deep v) { return static_cast<float>(v) * (1 / 65535.0f); };
+    put_over(canvas + 4 * done, {part(p[0]), part(p[1]), part(p[2]), part(p[3])},
+             Blend::LinearLight);
+  }
+}
+
+void put_linear(std::uint8_t* canvas, const std::uint8_t* over, std::size_t count) {
+  for (std::size_t done = 0; done < count; ++done) {
+    done += detail::over_linear(canvas + 4 * done, over + 4 * done, count - done);
+    if (done == count) return;
+    Light light;
+    accumulate(light, over + 4 * done, 1, Blend::LinearLight);
+    if (light.a > 0) put_over(canvas + 4 * done, light, Blend::LinearLight);
+  }
+}
+
+// What draw_unscaled needs for a column of at most kChunk canvas pixels.
+struct Column {
+  int from = 0;           // picture pixel under the first canvas pixel
+  std::size_t count = 0;  // canvas pixels
+  detail::Between between;
+  std::uint16_t opacity = 256;
+};
+
+void draw_column(std::uint8_t* canvas, std::size_t stride, const ImageView& picture, int first_row,
+                 int rows, const Column& column, Blend blend) {
+  alignas(64) std::uint8_t bytes[2][kRoom];
+  alignas(64) detail::Deep deep[2][kRoom], mixed_deep[kRoom];
+  const auto count = static_cast<int>(column.count);
+  const auto take = [&](int y, int slot) {
+    take_row(picture, y, column.from, count, bytes[slot]);
+    if (blend == Blend::LinearLight) {
+      detail::to_deep(bytes[slot], deep[slot], column.count + 1);
+    }
+  };
+  if (column.between.above != 0) take(first_row - 1, 1);
+  for (int r = 0; r < rows; ++r, canvas += stride) {
+    const int slot = r & 1;
+    take(first_row + r, slot);
+    if (blend == Blend::LinearLight) {
+      detail::between_deep(deep[1 - slot], deep[slot], column.between, column.opacity, mixed_deep,
+                           column.count);
+      put_deep(canvas, mixed_deep, column.count);
+    } else {
+      detail::over_between(canvas, bytes[1 - slot], bytes[slot], column.between, column.opacity,
+                           column.count);
+    }
+  }
+}
+
+void draw_unscaled(Image& canvas, const ImageView& picture, Vec2 top_left,
+                   const DrawOptions& options) {
+  const auto opacity =
+      static_cast<std::uint16_t>(std::lround(std::clamp(options.opacity, 0.0f, 1.0f) * 256));
+  if (opacity == 0) return;
+  const Place across = place_of(top_left.x, picture.width, 1);
+  const Place down = place_of(top_left.y, picture.height, 1);
+  const int x0 = std::max(across.first, 0), y0 = std::max(down.first, 0);
+  const int x1 = std::min(across.first + across.count, canvas.width);
+  const int y1 = std::min(down.first + down.count, canvas.height);
+  if (x0 >= x1 || y0 >= y1) return;
+  const std::size_t stride = 4 * static_cast<std::size_t>(canvas.width);
+  const auto at = [&](int x, int y) {
+    return canvas.rgba.data() + static_cast<std::size_t>(y) * stride + 4 * std::ptrdiff_t{x};
+  };
+  if (across.left == 0 && down.left == 0 && opacity == 256) {
+    for (int y = y0; y < y1; ++y) {
+      const std::uint8_t* row = picture.pixel(x0 - across.first, y - down.first);
+      const auto count = static_cast<std::size_t>(x1 - x0);
+      if (options.blend == Blend::LinearLight) {
+        put_linear(at(x0, y), row, count);
+      } else {
+        detail::over_encoded(at(x0, y), row, count);
+      }
+    }
+    return;
+  }
+  for (int x = x0; x < x1; x += kChunk) {
+    const Column column{x - across.first,
+                        static_cast<std::size_t>(std::min(kChunk, x1 - x)),
+                        {across.left, down.left},
+                        opacity};
+    draw_column(at(x, y0), stride, picture, y0 - down.first, y1 - y0, column, options.blend);
+  }
+}
+
 }  // namespace
 
 Image make_image(int width, int height, std::uint8_t r, std::uint8_t g, std::uint8_t b,
@@ -155,30 +311,16 @@ Image make_checkerboard(int width, int height, int cell) {
 
 void draw_picture(Image& canvas, ImageView picture, Vec2 top_left,
                   const DrawOptions& options) noexcept {
+  constexpr double kFar = 1e6;  // canvas pixels: nothing there would be seen
   const double scale = options.scale;
-  const bool drawable = std::isfinite(top_left.x) && std::isfinite(top_left.y) &&
+  const bool drawable = std::abs(top_left.x) < kFar && std::abs(top_left.y) < kFar &&
                         std::isfinite(scale) && scale > 0 && picture.width > 0 &&
                         picture.height > 0;
   if (!drawable) return;
-  const float opacity = std::clamp(options.opacity, 0.0f, 1.0f);
-  const Reach columns = reach(top_left.x, scale, picture.width, canvas.width);
-  const Reach rows = reach(top_left.y, scale, picture.height, canvas.height);
-  for (int y = rows.first; y < rows.last; ++y) {
-    const Footprint down = footprint(y, top_left.y, scale, picture.height);
-    for (int x = columns.first; x < columns.last; ++x) {
-      const Footprint across = footprint(x, top_left.x, scale, picture.width);
-      const Light over = sample_picture(picture, across, down, options.blend);
-      const float a = over.a * opacity;
-      if (a <= 0) continue;
-      std::uint8_t* pixel = canvas.rgba.data() + (std::ptrdiff_t{y} * canvas.width + x) * 4;
-      Light under;
-      accumulate(under, pixel, 1, options.blend);
-      const float rest = 1 - a;
-      store(pixel,
-            {over.r * opacity + rest * under.r, over.g * opacity + rest * under.g,
-             over.b * opacity + rest * under.b, a + rest * under.a},
-            options.blend);
-    }
+  if (options.scale == 1) {
+    draw_unscaled(canvas, picture, top_left, options);
+  } else {
+    draw_scaled(canvas, picture, top_left, options);
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "renderer.h"
 #include "shaders/sprite.h"
@@ -20,11 +21,39 @@ using detail::Kind;
 using detail::Program;
 using detail::Surface;
 
+namespace {
+
+/// How far each corner of a picture is clear: the least x + y of a pixel that is not, from there.
+std::array<float, 4> clear_corners(ImageView image) {
+  const int most = std::min(image.width, image.height) / 2;
+  std::array<int, 4> cuts{most, most, most, most};
+  const auto covered = [](const std::uint8_t* p) { return p[3] != 0; };
+  for (int y = 0; y < image.height; ++y) {
+    const int up = image.height - 1 - y;
+    int first = 0, last = 0;  // clear pixels at either end, as far as they matter
+    while (first < most && first < image.width && !covered(image.pixel(first, y))) ++first;
+    while (last < most && !covered(image.pixel(image.width - 1 - last, y))) ++last;
+    cuts[0] = std::min(cuts[0], first + y);
+    cuts[1] = std::min(cuts[1], last + y);
+    cuts[2] = std::min(cuts[2], last + up);
+    cuts[3] = std::min(cuts[3], first + up);
+  }
+  std::array<float, 4> out{};
+  for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<float>(cuts[k]);
+  return out;
+}
+
+}  // namespace
+
 Renderer::Impl::~Impl() {
   for (gl::Id id : pages) gl::free_texture(id);
-  for (Program* p :
-       {&sprite_program, &shape_program, &flat_program, &window_program, &file_program}) {
+  for (Program* p : {&shape_program, &flat_program, &window_program, &file_program}) {
     if (p->id != 0) gl::free_program(p->id);
+  }
+  for (auto& variants : sprite_programs) {
+    for (Program& p : variants) {
+      if (p.id != 0) gl::free_program(p.id);
+    }
   }
   for (Program& effect : effects) gl::free_program(effect.id);
   for (gl::Stream* s : {&sprite_stream, &shape_stream, &flat_stream, &empty_stream}) {
@@ -37,14 +66,18 @@ Renderer::Impl::~Impl() {
 
 Result<void> Renderer::Impl::set_up() {
   const auto build = [&](Program& program, std::string_view name, std::string_view vert,
-                         std::string_view frag, std::string_view prelude = "") -> Result<void> {
+                         std::string_view frag, std::string_view defines = "") -> Result<void> {
     program.name = name;
-    Result<gl::Id> id = gl::make_program(device, name, vert, prelude, frag);
+    Result<gl::Id> id = gl::make_program(device, name, vert, "", frag, defines);
     if (!id) return std::move(id).error();
     program.id = *id;
     return {};
   };
-  if (auto r = build(sprite_program, "sprite", glsl::sprite_vert, glsl::sprite_frag); !r) return r;
+  if (auto r = build(sprite_programs[0][0], "sprite", glsl::sprite_vert, glsl::sprite_frag,
+                     "#define TAPS 1\n");
+      !r) {
+    return r;
+  }
   if (auto r = build(shape_program, "shape", glsl::shape_vert, glsl::shape_frag); !r) return r;
   if (auto r = build(flat_program, "flat", glsl::flat_vert, glsl::flat_frag); !r) return r;
   if (auto r = build(window_program, "encode", glsl::encode_vert, glsl::encode_frag); !r) return r;
@@ -53,10 +86,10 @@ Result<void> Renderer::Impl::set_up() {
       !r) {
     return r;
   }
-  sprite_stream = gl::make_stream(5, true);
-  shape_stream = gl::make_stream(4, true);
-  flat_stream = gl::make_stream(2, false);
-  empty_stream = gl::make_stream(0, false);
+  sprite_stream = gl::make_stream(9, 8);
+  shape_stream = gl::make_stream(4, 4);
+  flat_stream = gl::make_stream(2, 0);
+  empty_stream = gl::make_stream(0, 0);
   return {};
 }
 
@@ -64,7 +97,11 @@ void Renderer::Impl::flush() {
   const Kind what = std::exchange(kind, Kind::Nothing);
   if (what == Kind::Nothing || batch.empty()) return;
   const bool sprites = what == Kind::Sprites;
-  Program& program = sprites ? sprite_program : what == Kind::Shapes ? shape_program : flat_program;
+  Program* variant = sprites ? sprite_program(taps, old_page >= 0) : nullptr;
+  Program& program = variant != nullptr     ? *variant
+                     : sprites              ? sprite_programs[0][0]
+                     : what == Kind::Shapes ? shape_program
+                                            : flat_program;
   const gl::Stream& stream = sprites                ? sprite_stream
                              : what == Kind::Shapes ? shape_stream
                                                     : flat_stream;
@@ -76,6 +113,12 @@ void Renderer::Impl::flush() {
     gl::set_sampler(program.location("page"), 0);
     program.set("page_size", {static_cast<float>(atlas.page_width(page)),
                               static_cast<float>(atlas.page_height(page))});
+    if (old_page >= 0) {
+      gl::bind(1, pages[static_cast<std::size_t>(old_page)]);
+      gl::set_sampler(program.location("old_page"), 1);
+      program.set("old_page_size", {static_cast<float>(atlas.page_width(old_page)),
+                                    static_cast<float>(atlas.page_height(old_page))});
+    }
   }
   gl::blend(blend);
   gl::draw(stream, batch.data(), batch.size() / (4 * static_cast<std::size_t>(stream.vectors)));
@@ -83,12 +126,32 @@ void Renderer::Impl::flush() {
   ++stats.batches;
 }
 
-void Renderer::Impl::select(Kind wanted, BlendMode mode, int wanted_page) {
-  if (kind == wanted && blend == mode && page == wanted_page) return;
+Program* Renderer::Impl::sprite_program(int samples, bool fading) {
+  Program& program =
+      sprite_programs[static_cast<std::size_t>(samples - 1)][static_cast<std::size_t>(fading)];
+  if (program.id == 0) {
+    const std::string defines =
+        "#define TAPS " + std::to_string(samples) + (fading ? "\n#define FADE\n" : "\n");
+    const Result<gl::Id> made =
+        gl::make_program(device, "sprite", glsl::sprite_vert, "", glsl::sprite_frag, defines);
+    if (!made) return nullptr;
+    program.id = *made;
+  }
+  return &program;
+}
+
+void Renderer::Impl::select(Kind wanted, BlendMode mode, int wanted_page, int wanted_old,
+                            int wanted_taps) {
+  if (kind == wanted && blend == mode && page == wanted_page && old_page == wanted_old &&
+      taps == wanted_taps) {
+    return;
+  }
   flush();
   kind = wanted;
   blend = mode;
   page = wanted_page;
+  old_page = wanted_old;
+  taps = wanted_taps;
 }
 
 void Renderer::Impl::use_surface(Surface* surface) {
@@ -124,17 +187,46 @@ std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, Im
   gl::upload(pages[index], placed->slot.rect, staging.data());
   ++stats.uploads;
   stats.texture_bytes = atlas.bytes();
-  return placed->slot;
+  detail::AtlasSlot slot = placed->slot;
+  slot.cuts = clear_corners(image);
+  atlas.set_cuts(key, slot.cuts);
+  return slot;
 }
 
-void Renderer::Impl::push_picture(const detail::AtlasSlot& slot, Vec2 corner, Vec2 x_axis,
-                                  Vec2 y_axis, Color tint, Color fog, float fog_amount) {
-  select(Kind::Sprites, BlendMode::Over, slot.page);
-  const Rect& r = slot.rect;
-  push({corner.x, corner.y, 0, 0, x_axis.x, x_axis.y, y_axis.x, y_axis.y});
-  push({static_cast<float>(r.x + 1), static_cast<float>(r.y + 1), static_cast<float>(r.width - 2),
-        static_cast<float>(r.height - 2)});
-  push({tint.r, tint.g, tint.b, tint.a, fog.r, fog.g, fog.b, fog_amount});
+std::optional<detail::AtlasSlot> Renderer::Impl::find_or_store(const TextureKey& key,
+                                                               ImageView image) {
+  if (key.sprite != 0) {
+    if (const auto slot = atlas.find(key)) return slot;
+  }
+  if (image.rgba == nullptr || image.width <= 0 || image.height <= 0) return std::nullopt;
+  return store(key.sprite != 0 ? key : TextureKey{0, uncached++}, image);
+}
+
+void Renderer::Impl::push_picture(const detail::Picture& p) {
+  const auto length = [](Vec2 v) { return std::sqrt(v.x * v.x + v.y * v.y); };
+  const float smallest = std::min(length(p.x_axis), length(p.y_axis));
+  const float reach = p.footprint / std::max(smallest, 0.01f);
+  const int samples = std::clamp(static_cast<int>(std::ceil(reach - 0.02f)), 1, detail::kMostTaps);
+  select(Kind::Sprites, BlendMode::Over, p.slot.page, p.old ? p.old->page : -1, samples);
+  const auto inner = [](const Rect& r) {
+    return std::array{static_cast<float>(r.x + 1), static_cast<float>(r.y + 1),
+                      static_cast<float>(r.width - 2), static_cast<float>(r.height - 2)};
+  };
+  const std::array<float, 4> rect = inner(p.slot.rect);
+  const std::array<float, 4> old = p.old ? inner(p.old->rect) : std::array<float, 4>{};
+  push({p.corner.x, p.corner.y, p.footprint, p.share});
+  push({p.x_axis.x, p.x_axis.y, p.y_axis.x, p.y_axis.y});
+  push({rect[0], rect[1], rect[2], rect[3]});
+  push({p.tint.r, p.tint.g, p.tint.b, p.tint.a, p.fog.r, p.fog.g, p.fog.b, p.fog_amount});
+  if (p.old) {
+    push({std::min(0.0f, p.shift.x), std::min(0.0f, p.shift.y),
+          std::max(rect[2], p.shift.x + old[2]), std::max(rect[3], p.shift.y + old[3])});
+    push({0, 0, 0, 0});
+  } else {
+    push({0, 0, rect[2], rect[3]});
+    push({p.slot.cuts[0], p.slot.cuts[1], p.slot.cuts[2], p.slot.cuts[3]});
+  }
+  push({old[0], old[1], old[2], old[3], p.shift.x, p.shift.y, 0, 0});
   ++stats.sprites;
 }
 
@@ -222,21 +314,29 @@ void Renderer::forget(std::uint64_t sprite) { impl_->atlas.forget(sprite); }
 void Renderer::draw_sprite(const SpriteDraw& s) {
   Impl& m = *impl_;
   if (m.target == nullptr) return;
-  std::optional<detail::AtlasSlot> slot;
-  if (s.key.sprite != 0) slot = m.atlas.find(s.key);
-  if (!slot) {
-    if (s.image.rgba == nullptr || s.image.width <= 0 || s.image.height <= 0) return;
-    slot = m.store(s.key.sprite != 0 ? s.key : TextureKey{0, m.uncached++}, s.image);
-    if (!slot) return;
-  }
+  detail::Picture p;
+  const bool fades = s.fade.share > 0;
+  // The older picture first: it is the one that is likely to be there.
+  if (fades) p.old = m.find_or_store(s.fade.key, s.fade.image);
+  const auto slot = m.find_or_store(s.key, s.image);
+  if (!slot) return;
+  // Storing one may have emptied the page of the other.
+  if (fades && s.fade.key.sprite != 0) p.old = m.atlas.find(s.fade.key);
+  p.slot = *slot;
+  p.share = std::min(s.fade.share, 1.0f);
+  p.shift = {s.anchor.x - s.fade.anchor.x, s.anchor.y - s.fade.anchor.y};
   const float scale = s.scale * m.camera.scale;
   const float c = std::cos(s.angle) * scale, n = std::sin(s.angle) * scale;
   const float side = s.mirror ? -1.0f : 1.0f;
-  const Vec2 x_axis{side * c, side * n}, y_axis{-n, c};
+  p.x_axis = {side * c, side * n};
+  p.y_axis = {-n, c};
   const Vec2 at = m.to_frame(s.position);
-  const Vec2 corner{at.x - x_axis.x * s.anchor.x - y_axis.x * s.anchor.y,
-                    at.y - x_axis.y * s.anchor.x - y_axis.y * s.anchor.y};
-  m.push_picture(*slot, corner, x_axis, y_axis, s.tint, s.fog, s.fog_amount);
+  p.corner = {at.x - p.x_axis.x * s.anchor.x - p.y_axis.x * s.anchor.y,
+              at.y - p.x_axis.y * s.anchor.x - p.y_axis.y * s.anchor.y};
+  p.tint = s.tint;
+  p.fog = s.fog;
+  p.fog_amount = s.fog_amount;
+  m.push_picture(p);
 }
 
 void Renderer::draw_shape(const Shape& s) {

@@ -167,6 +167,8 @@ void Renderer::end_frame(int window_width, int window_height) {
   }
 }
 
+void Renderer::wait() { gl::finish(); }
+
 Vec2 Renderer::frame_from_window(Vec2 point) const noexcept {
   const Rect& r = impl_->window_fit;
   if (r.width <= 0 || r.height <= 0) return point;

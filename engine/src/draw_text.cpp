@@ -31,7 +31,7 @@ void Renderer::Impl::draw_line_of_text(std::string_view text, Vec2 at, float siz
       if (!slot) slot = store(key, detail::draw_glyph(character, size, style.weight));
       const Vec2 corner{std::round(pen) + static_cast<float>(area.x),
                         baseline + static_cast<float>(area.y)};
-      if (slot) push_picture(*slot, corner, {1, 0}, {0, 1}, style.color, {}, 0);
+      if (slot) push_picture({.slot = *slot, .corner = corner, .tint = style.color, .fog = {}});
     }
     pen += detail::glyph_advance(character) * size;
   }

@@ -102,10 +102,12 @@ Result<Device> probe() {
 }
 
 Result<Id> make_program(const Device& device, std::string_view name, std::string_view vertex,
-                        std::string_view fragment_prelude, std::string_view fragment) {
-  Result<Id> vert = compile(device, name, GL_VERTEX_SHADER, "", vertex);
+                        std::string_view fragment_prelude, std::string_view fragment,
+                        std::string_view defines) {
+  Result<Id> vert = compile(device, name, GL_VERTEX_SHADER, defines, vertex);
   if (!vert) return vert;
-  Result<Id> frag = compile(device, name, GL_FRAGMENT_SHADER, fragment_prelude, fragment);
+  const std::string prelude = std::string(defines) + std::string(fragment_prelude);
+  Result<Id> frag = compile(device, name, GL_FRAGMENT_SHADER, prelude, fragment);
   if (!frag) {
     glDeleteShader(*vert);
     return frag;
@@ -247,6 +249,8 @@ void read(const Target& target, std::uint8_t* rgba) {
   glBindFramebuffer(GL_FRAMEBUFFER, before);
 }
 
+void finish() { glFinish(); }
+
 void blend(BlendMode mode) {
   if (mode == BlendMode::Replace) {
     glDisable(GL_BLEND);
@@ -259,8 +263,9 @@ void blend(BlendMode mode) {
   if (mode == BlendMode::Multiply) glBlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE);
 }
 
-Stream make_stream(int vectors, bool instanced) {
-  Stream stream{0, 0, vectors, instanced};
+Stream make_stream(int vectors, int corners) {
+  const bool instanced = corners > 0;
+  Stream stream{0, 0, vectors, corners};
   glGenVertexArrays(1, &stream.array);
   glBindVertexArray(stream.array);
   if (vectors == 0) return stream;
@@ -288,8 +293,8 @@ void draw(const Stream& stream, const float* data, std::size_t count) {
   glBindBuffer(GL_ARRAY_BUFFER, stream.buffer);
   const std::size_t bytes = count * sizeof(float) * 4 * static_cast<std::size_t>(stream.vectors);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
-  if (stream.instanced) {
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+  if (stream.corners > 0) {
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, stream.corners, static_cast<GLsizei>(count));
   } else {
     glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(count));
   }

@@ -34,19 +34,22 @@ struct Target {
   int height = 0;
 };
 
-/// Instances of `vectors` vec4 each, drawn as strips of four, or plain triangles' vertices.
+/// Instances of `vectors` vec4 each, drawn as strips of so many corners; 0: plain triangles'
+/// vertices.
 struct Stream {
   Id array = 0;
   Id buffer = 0;
   int vectors = 0;
-  bool instanced = true;
+  int corners = 4;
 };
 
 Result<Device> probe();
 
-/// `name` stands in messages. Errors: BadContent with the compiler's words.
+/// `name` stands in messages; `defines` opens both texts. Errors: BadContent with the compiler's
+/// words.
 Result<Id> make_program(const Device& device, std::string_view name, std::string_view vertex,
-                        std::string_view fragment_prelude, std::string_view fragment);
+                        std::string_view fragment_prelude, std::string_view fragment,
+                        std::string_view defines = "");
 void free_program(Id program);
 int find_uniform(Id program, const char* name);
 void use(Id program);
@@ -74,9 +77,11 @@ void stretch(const Target& from, Id window, const Rect& place);
 void clear(float r, float g, float b, float a);
 void read(const Target& target, std::uint8_t* rgba);
 
+void finish();
+
 void blend(BlendMode mode);
 
-Stream make_stream(int vectors, bool instanced);
+Stream make_stream(int vectors, int corners);
 void free_stream(Stream& stream);
 /// `data`: count * vectors * 4 floats.
 void draw(const Stream& stream, const float* data, std::size_t count);

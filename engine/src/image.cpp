@@ -9,6 +9,8 @@
 
 #include <array>
 
+#include "srgb_tables.h"
+
 namespace vsprite {
 namespace {
 
@@ -52,14 +54,29 @@ constexpr std::array<std::uint8_t, 65536> make_encoded_table() {
   return table;
 }
 
-constexpr std::array<std::uint16_t, 256> kLinear = make_linear_table();
-constexpr std::array<std::uint8_t, 65536> kEncoded = make_encoded_table();
+constexpr std::array<std::uint16_t, 65536> make_premultiplied_table() {
+  const std::array<std::uint16_t, 256> linear = make_linear_table();
+  std::array<std::uint16_t, 65536> table{};
+  for (unsigned a = 1; a < 256; ++a) {
+    for (unsigned c = 0; c < 256; ++c) {
+      const unsigned straight = c > a ? 255u : (c * 255u + a / 2) / a;
+      table[a << 8 | c] = static_cast<std::uint16_t>((linear[straight] * a + 127) / 255);
+    }
+  }
+  return table;
+}
 
 }  // namespace
 
-std::uint16_t linear_from_srgb(std::uint8_t encoded) noexcept { return kLinear[encoded]; }
+namespace detail {
+constexpr std::array<std::uint16_t, 256> kLinear = make_linear_table();
+constexpr std::array<std::uint8_t, 65536> kEncoded = make_encoded_table();
+constexpr std::array<std::uint16_t, 65536> kPremultipliedLinear = make_premultiplied_table();
+}  // namespace detail
 
-std::uint8_t srgb_from_linear(std::uint16_t linear) noexcept { return kEncoded[linear]; }
+std::uint16_t linear_from_srgb(std::uint8_t encoded) noexcept { return detail::kLinear[encoded]; }
+
+std::uint8_t srgb_from_linear(std::uint16_t linear) noexcept { return detail::kEncoded[linear]; }
 
 void premultiply(Image& image) noexcept {
   for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {

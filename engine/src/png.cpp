@@ -98,7 +98,8 @@ Outcome decode(Reader& reader, Image& image) {
   png_set_user_limits(png, kLongestSide, kLongestSide);
   png_set_chunk_malloc_max(png, 8'000'000);
   png_set_chunk_cache_max(png, 128);
-  // Every optional chunk but tRNS is passed over: libpng takes memory for the length that one claims.
+  // Every optional chunk but tRNS is passed over: libpng takes memory for the length that one
+  // claims.
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_set_read_fn(png, &reader, read_bytes);
   std::vector<png_bytep> rows;

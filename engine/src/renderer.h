@@ -4,6 +4,7 @@
 // renderer.h - what a Renderer holds; shared by draw.cpp, draw_text.cpp and draw_effect.cpp.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -46,9 +47,24 @@ struct Surface {
 };
 
 constexpr int kPageSide = 2048;
+constexpr int kMostTaps = 4;            // samples along a pixel's footprint
 constexpr std::size_t kTexelBytes = 8;  // four half floats
 
 enum class Kind { Nothing, Sprites, Shapes, Triangles };
+
+/// One instance of the sprite shader, whose words these are.
+struct Picture {
+  AtlasSlot slot;
+  Vec2 corner;
+  Vec2 x_axis{1, 0}, y_axis{0, 1};
+  Color tint;
+  Color fog;
+  float fog_amount = 0;
+  float footprint = 1;  ///< pixels
+  std::optional<AtlasSlot> old{};
+  Vec2 shift{};
+  float share = 0;
+};
 
 }  // namespace detail
 
@@ -59,7 +75,9 @@ struct Renderer::Impl {
   detail::LightTable light;
   detail::Atlas atlas;
   std::vector<detail::gl::Id> pages;
-  detail::Program sprite_program, shape_program, flat_program, window_program, file_program;
+  /// [taps - 1][fading]; those beyond the first are compiled when they are needed.
+  std::array<std::array<detail::Program, 2>, detail::kMostTaps> sprite_programs;
+  detail::Program shape_program, flat_program, window_program, file_program;
   detail::gl::Stream sprite_stream, shape_stream, flat_stream, empty_stream;
   std::vector<detail::Program> effects;
   Effect layer_effect;
@@ -74,7 +92,8 @@ struct Renderer::Impl {
 
   detail::Kind kind = detail::Kind::Nothing;
   BlendMode blend = BlendMode::Over;
-  int page = -1;
+  int page = -1, old_page = -1;  // of a batch of sprites; old_page -1: none of them fades
+  int taps = 1;
   std::vector<float> batch;
   std::vector<std::uint16_t> staging;
   std::uint32_t uncached = 0;
@@ -88,15 +107,19 @@ struct Renderer::Impl {
 
   Result<void> set_up();
   void flush();
-  void select(detail::Kind wanted, BlendMode mode, int wanted_page = -1);
+  void select(detail::Kind wanted, BlendMode mode, int wanted_page = -1, int wanted_old = -1,
+              int wanted_taps = 1);
   void use_surface(detail::Surface* surface);
   void drop_frame();
   std::optional<detail::AtlasSlot> store(const TextureKey& key, ImageView image);
   void push(std::initializer_list<float> values) {
     batch.insert(batch.end(), values.begin(), values.end());
   }
-  void push_picture(const detail::AtlasSlot& slot, Vec2 corner, Vec2 x_axis, Vec2 y_axis,
-                    Color tint, Color fog, float fog_amount);
+  void push_picture(const detail::Picture& picture);
+  /// The picture's place on a page; it is sent there if need be. Nothing if there is no picture.
+  std::optional<detail::AtlasSlot> find_or_store(const TextureKey& key, ImageView image);
+  /// Null if the driver refuses the variant.
+  detail::Program* sprite_program(int taps, bool fading);
   Vec2 to_frame(Vec2 p) const noexcept {
     return {(p.x - camera.origin.x) * camera.scale + camera.offset.x,
             (p.y - camera.origin.y) * camera.scale + camera.offset.y};

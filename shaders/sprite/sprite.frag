@@ -2,31 +2,55 @@
 // SPDX-License-Identifier: MIT
 //
 // Bilinear between texels that are linear premultiplied light; a shrunk picture is averaged over the
-// pixel's footprint by up to 4 x 4 such samples. Out: linear, premultiplied.
+// pixel's footprint by TAPS x TAPS such samples (constants: a loop of unknown length costs software
+// drivers more than the samples). With FADE two pictures are mixed before they are drawn, so that
+// what is opaque in both stays opaque. Out: linear, premultiplied.
 in vec2 texel;
 flat in vec4 picture;
-flat in vec4 picture_tint;
-flat in vec4 picture_fog;
+flat in vec4 own;
+flat in vec4 veil;
+flat in vec4 old;
+flat in vec4 fade;
 uniform sampler2D page;
 uniform vec2 page_size;
+#ifdef FADE
+uniform sampler2D old_page;
+uniform vec2 old_page_size;
+#endif
 out vec4 color;
 
-void main() {
-  vec2 across = dFdx(texel);
-  vec2 down = dFdy(texel);
-  float reach = max(length(across), length(down));
-  int taps = int(clamp(ceil(reach - 0.02), 1.0, 4.0));
+#if TAPS > 1 || defined(FADE)
+// Beyond half a texel lies the border of zeros: staying on it keeps neighbours out.
+vec4 light_at(sampler2D from, vec2 from_size, vec4 rect, vec2 at) {
+  return textureLod(from, (rect.xy + clamp(at, vec2(-0.5), rect.zw + 0.5)) / from_size, 0.0);
+}
+vec4 light_over(sampler2D from, vec2 from_size, vec4 rect, vec2 at, vec2 across, vec2 down) {
+#if TAPS > 1
   vec4 sum = vec4(0.0);
-  for (int j = 0; j < taps; ++j) {
-    for (int i = 0; i < taps; ++i) {
-      vec2 f = (vec2(i, j) + 0.5) / float(taps) - 0.5;
-      // Beyond half a texel lies the border of zeros: staying on it keeps neighbours out.
-      vec2 at = clamp(texel + f.x * across + f.y * down, vec2(-0.5), picture.zw + 0.5);
-      sum += textureLod(page, (picture.xy + at) / page_size, 0.0);
+  for (int j = 0; j < TAPS; ++j) {
+    for (int i = 0; i < TAPS; ++i) {
+      vec2 f = (vec2(i, j) + 0.5) / float(TAPS) - 0.5;
+      sum += light_at(from, from_size, rect, at + f.x * across + f.y * down);
     }
   }
-  vec4 light = sum / float(taps * taps);
-  light.rgb *= picture_tint.rgb;
-  light.rgb = mix(light.rgb, picture_fog.rgb * light.a, picture_fog.a);
-  color = light * picture_tint.a;
+  return sum / float(TAPS * TAPS);
+#else
+  return light_at(from, from_size, rect, at);
+#endif
+}
+#endif
+
+void main() {
+#if TAPS > 1 || defined(FADE)
+  vec2 across = dFdx(texel) * fade.z;
+  vec2 down = dFdy(texel) * fade.z;
+  vec4 light = light_over(page, page_size, picture, texel, across, down);
+#ifdef FADE
+  vec4 before = light_over(old_page, old_page_size, old, texel - fade.xy, across, down);
+  light = mix(light, before, fade.w);
+#endif
+#else
+  vec4 light = textureLod(page, texel, 0.0);
+#endif
+  color = light * own + light.a * veil;
 }

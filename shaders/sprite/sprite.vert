@@ -1,29 +1,58 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// One sprite per instance, four corners of a strip.
-// place: xy frame pixels of the picture's top left corner     axes: frame pixels per texel, along x and y
-// rect: x, y, width, height of the picture in the page, texels     tint, fog: linear light
+// One sprite per instance: a box without its clear corners, eight vertices of a strip.
+// place: xy frame pixels of the picture's top left corner, z width of the footprint in pixels, w share
+// of the other picture     axes: frame pixels per texel, along x and y     rect, other: x, y, width,
+// height in the page, texels     box: what is covered, texels of the picture     cuts: off its corners,
+// clockwise from the top left     shift: of the other picture's corner, texels     tint, fog: linear
 layout(location = 0) in vec4 place;
 layout(location = 1) in vec4 axes;
 layout(location = 2) in vec4 rect;
 layout(location = 3) in vec4 tint;
 layout(location = 4) in vec4 fog;
+layout(location = 5) in vec4 box;
+layout(location = 6) in vec4 cuts;
+layout(location = 7) in vec4 other;
+layout(location = 8) in vec4 shift;
 uniform vec2 frame_size;
-out vec2 texel;  // within the picture
+uniform vec2 page_size;
+out vec2 texel;  // within the picture; where one sample is taken, of the page, 0..1
 flat out vec4 picture;
-flat out vec4 picture_tint;
-flat out vec4 picture_fog;
+flat out vec4 own;    // color = light own + light.a veil
+flat out vec4 veil;
+flat out vec4 old;
+flat out vec4 fade;  // shift, footprint, share
 
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
   // A pixel's footprint reaches half a texel, or half a pixel where the picture is shrunk, past the edge.
   vec2 size = vec2(length(axes.xy), length(axes.zw));
-  vec2 pad = vec2(0.5) + 0.75 / max(min(size, vec2(1.0)), vec2(0.01));
-  texel = mix(-pad, rect.zw + pad, corner);
-  vec2 at = place.xy + axes.xy * texel.x + axes.zw * texel.y;
-  gl_Position = vec4(2.0 * at / frame_size - 1.0, 0.0, 1.0);
+  vec2 pad = vec2(0.5);
+#if TAPS > 1
+  pad += 0.75 * place.z / max(min(size, vec2(1.0)), vec2(0.01));
+#endif
+  vec2 low = box.xy - pad, high = box.zw + pad;
+  // In pairs from the top down, as a strip goes.
+  int k = gl_VertexID;
+  vec2 at = low;
+  if (k == 0) at = vec2(low.x + cuts.x, low.y);
+  else if (k == 1) at = vec2(high.x - cuts.y, low.y);
+  else if (k == 2) at = vec2(low.x, low.y + cuts.x);
+  else if (k == 3) at = vec2(high.x, low.y + cuts.y);
+  else if (k == 4) at = vec2(low.x, high.y - cuts.w);
+  else if (k == 5) at = vec2(high.x, high.y - cuts.z);
+  else if (k == 6) at = vec2(low.x + cuts.w, high.y);
+  else at = vec2(high.x - cuts.z, high.y);
+  vec2 point = place.xy + axes.xy * at.x + axes.zw * at.y;
+  gl_Position = vec4(2.0 * point / frame_size - 1.0, 0.0, 1.0);
   picture = rect;
-  picture_tint = tint;
-  picture_fog = fog;
+  own = vec4(tint.rgb * (1.0 - fog.a), 1.0) * tint.a;
+  veil = vec4(fog.rgb * fog.a * tint.a, 0.0);
+  old = other;
+  fade = vec4(shift.xy, place.zw);
+#if TAPS > 1 || defined(FADE)
+  texel = at;
+#else
+  texel = (rect.xy + at) / page_size;
+#endif
 }

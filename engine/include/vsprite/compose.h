@@ -13,7 +13,8 @@
 // are, as most 2D programs do; soft edges then look too dark on light ground and too light on dark.
 //
 // The picture is sampled at any sub-pixel place: bilinear when enlarged, averaged over the area
-// that a canvas pixel covers when reduced (at scale 1 the two are the same).
+// that a canvas pixel covers when reduced (at scale 1 the two are the same, and places count in
+// 1/256 px).
 #pragma once
 
 #include <cstdint>

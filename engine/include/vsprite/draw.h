@@ -102,6 +102,8 @@ class Renderer {
   /// Encodes and sends the frame to the current framebuffer of that size (0: that of the frame),
   /// fitted into its middle with black bars. Then swap the window.
   void end_frame(int window_width = 0, int window_height = 0);
+  /// Returns once the GPU has drawn everything: for measuring.
+  void wait();
   /// A point of the window in frame pixels, undoing the fit of the last end_frame.
   Vec2 frame_from_window(Vec2 point) const noexcept;
 

@@ -49,6 +49,15 @@ struct TextureKey {
   friend bool operator==(const TextureKey&, const TextureKey&) = default;
 };
 
+/// A picture that another one is mixed with, anchor on anchor, for a cross-fade. What is opaque in
+/// both stays opaque.
+struct Fade {
+  ImageView image{};
+  TextureKey key{};
+  Vec2 anchor{};    ///< px of this image
+  float share = 0;  ///< of this picture, 0: not drawn at all, 1: alone
+};
+
 /// One picture to draw. The anchor comes to lie at `position`, exactly, also between pixels.
 struct SpriteDraw {
   ImageView image{};  ///< premultiplied sRGB; may be empty where is_cached(key)
@@ -61,6 +70,7 @@ struct SpriteDraw {
   Color tint{};          ///< multiplies colour; tint.a multiplies coverage
   Color fog{};           ///< colour of the water or air in between (its alpha is not used) ...
   float fog_amount = 0;  ///< ... 0 none, 1 a silhouette in that colour
+  Fade fade{};           ///< the picture shown before
 };
 
 /// A rounded box with a soft edge: also rectangles, discs, rings and thick lines.

@@ -1,0 +1,355 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// Porter and Duff's "over" along rows. A matte is mostly clear and opaque runs: a vector of either
+// kind costs a test, and only the pixels of an edge are mixed. In linear light an edge pixel goes
+// through tables, one at a time: that is faster than powers in lanes, because edges are narrow.
+#include "blend_rows.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "srgb_tables.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "blend_rows.cpp"
+#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace vsprite::detail::HWY_NAMESPACE {
+namespace {
+
+// canvas is opaque; the channels of `over` are premultiplied linear light.
+HWY_INLINE void mix_linear(std::uint8_t* canvas, const Deep* over, std::uint32_t alpha) {
+  const std::uint32_t rest = 65535u - alpha;
+  for (int c = 0; c < 3; ++c) {
+    const std::uint32_t under = kLinear[canvas[c]] * rest;
+    canvas[c] = kEncoded[std::min(65535u, over[c] + ((under + (under >> 16) + 1) >> 16))];
+  }
+}
+
+HWY_INLINE void mix_linear(std::uint8_t* canvas, const std::uint8_t* over) {
+  const Deep* row = &kPremultipliedLinear[std::size_t{over[3]} << 8];
+  const Deep light[3] = {row[over[0]], row[over[1]], row[over[2]]};
+  mix_linear(canvas, light, over[3] * 257u);
+}
+
+std::size_t over_deep_row(std::uint8_t* canvas, const Deep* picture, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i, canvas += 4, picture += 4) {
+    if (picture[3] == 0) continue;
+    if (canvas[3] != 255) return i;
+    mix_linear(canvas, picture, picture[3]);
+  }
+  return count;
+}
+
+void to_deep_row(const std::uint8_t* picture, Deep* out, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i, picture += 4, out += 4) {
+    const std::uint32_t alpha = picture[3];
+    const Deep* row = &kPremultipliedLinear[std::size_t{alpha} << 8];
+    out[0] = row[picture[0]];
+    out[1] = row[picture[1]];
+    out[2] = row[picture[2]];
+    out[3] = static_cast<Deep>(alpha * 257u);
+  }
+}
+
+#if HWY_TARGET == HWY_SCALAR  // a CPU without vectors: the same numbers, a byte at a time
+
+std::uint8_t over_255(std::uint32_t x) {
+  return static_cast<std::uint8_t>((x + 128 + ((x + 128) >> 8)) >> 8);
+}
+
+void over_encoded_row(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) {
+  for (std::size_t i = 0; i < 4 * count; ++i) {
+    const std::uint32_t rest = 255u - picture[i | 3];
+    canvas[i] = static_cast<std::uint8_t>(
+        std::min(255u, picture[i] + std::uint32_t{over_255(canvas[i] * rest)}));
+  }
+}
+
+std::size_t over_linear_row(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i, canvas += 4, picture += 4) {
+    if (picture[3] == 0) continue;
+    if (picture[3] == 255) {
+      std::memcpy(canvas, picture, 4);
+    } else if (canvas[3] == 255) {
+      mix_linear(canvas, picture);
+    } else {
+      return i;
+    }
+  }
+  return count;
+}
+
+// (w a + (256 - w) b) / 256, both products rounded down; b alone where w is 0.
+std::uint32_t between(std::uint32_t a, std::uint32_t b, std::uint32_t w) {
+  return w == 0 ? b : (a * (w << 8) >> 16) + (b * ((256 - w) << 8) >> 16);
+}
+
+std::uint32_t faded(std::uint32_t v, std::uint32_t opacity) {
+  return opacity < 256 ? v * (opacity << 8) >> 16 : v;
+}
+
+void between_deep_row(const Deep* above, const Deep* row, Between at, std::uint16_t opacity,
+                      Deep* out, std::size_t count) {
+  for (std::size_t i = 0; i < 4 * count; ++i) {
+    const std::uint32_t low = between(row[i], row[i + 4], at.left);
+    const std::uint32_t high = at.above == 0 ? 0 : between(above[i], above[i + 4], at.left);
+    out[i] = static_cast<Deep>(faded(between(high, low, at.above), opacity));
+  }
+}
+
+void over_between_row(std::uint8_t* canvas, const std::uint8_t* above, const std::uint8_t* row,
+                      Between at, std::uint16_t opacity, std::size_t count) {
+  const auto across = [&](const std::uint8_t* p) {
+    return std::uint32_t{at.left} * p[0] + (256u - at.left) * p[4];
+  };
+  const auto deep = [&](std::size_t i) {
+    const std::uint32_t high = at.above == 0 ? 0 : across(above + i);
+    return faded(between(high, across(row + i), at.above), opacity);
+  };
+  for (std::size_t i = 0; i < 4 * count; ++i) {
+    const std::uint32_t rest = 65280u - deep(i | 3);
+    canvas[i] = static_cast<std::uint8_t>((deep(i) + (canvas[i] * 257u * rest >> 16) + 128) >> 8);
+  }
+}
+
+#else
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Words = hn::ScalableTag<std::uint32_t>;  // a lane is a pixel
+using Bytes = hn::Repartition<std::uint8_t, Words>;
+using Pairs = hn::Repartition<std::uint16_t, Words>;
+using WordVector = hn::Vec<Words>;
+using WordMask = hn::Mask<Words>;
+
+// A whole vector of pixels, or the first few of one at the end of a row.
+struct Whole {
+  WordVector load(const std::uint8_t* p) const {
+    return hn::BitCast(Words(), hn::LoadU(Bytes(), p));
+  }
+  void store(WordVector v, std::uint8_t* p) const {
+    hn::StoreU(hn::BitCast(Bytes(), v), Bytes(), p);
+  }
+};
+struct First {
+  WordMask mask;
+  // vpmaskmov and its like touch no byte of an unset lane; pixels need no alignment there.
+  WordVector load(const std::uint8_t* p) const {
+    return hn::MaskedLoad(mask, Words(), reinterpret_cast<const std::uint32_t*>(p));
+  }
+  void store(WordVector v, std::uint8_t* p) const {
+    hn::BlendedStore(v, mask, Words(), reinterpret_cast<std::uint32_t*>(p));
+  }
+};
+
+// x / 255 to nearest, 0 <= x <= 255 * 255.
+template <class V>
+V over_255(V x) {
+  const V t = hn::Add(x, hn::Set(Pairs(), std::uint16_t{128}));
+  return hn::ShiftRight<8>(hn::Add(t, hn::ShiftRight<8>(t)));
+}
+
+// Even and odd bytes are mixed apart, so that nothing has to be shuffled.
+WordVector mixed_encoded(WordVector canvas, WordVector picture) {
+  const Pairs d;
+  alignas(16) static constexpr std::uint8_t kAlphas[16] = {3,  3,  3,  3,  7,  7,  7,  7,
+                                                           11, 11, 11, 11, 15, 15, 15, 15};
+  const auto low = hn::Set(d, std::uint16_t{0x00FF});
+  const auto bytes = hn::BitCast(Bytes(), picture);
+  const auto alpha = hn::TableLookupBytes(bytes, hn::LoadDup128(Bytes(), kAlphas));
+  const auto rest = hn::And(hn::Not(hn::BitCast(d, alpha)), low);
+  const auto under = hn::BitCast(d, canvas);
+  const auto even = over_255(hn::Mul(hn::And(under, low), rest));
+  const auto odd = over_255(hn::Mul(hn::ShiftRight<8>(under), rest));
+  const auto kept = hn::BitCast(Bytes(), hn::Or(even, hn::ShiftLeft<8>(odd)));
+  return hn::BitCast(Words(), hn::SaturatedAdd(kept, bytes));
+}
+
+WordMask opaque(WordVector v) {
+  const auto top = hn::Set(Words(), 0xFF000000u);
+  return hn::Eq(hn::And(v, top), top);
+}
+
+template <class Access>
+HWY_INLINE void over_vector(const Access& access, std::uint8_t* canvas,
+                            const std::uint8_t* picture) {
+  const WordVector over = access.load(picture);
+  if (hn::AllTrue(Words(), hn::Eq(over, hn::Zero(Words())))) return;
+  if (hn::AllTrue(Words(), opaque(over))) return access.store(over, canvas);
+  access.store(mixed_encoded(access.load(canvas), over), canvas);
+}
+
+void over_encoded_row(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) {
+  const std::size_t lanes = hn::Lanes(Words());
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) over_vector(Whole{}, canvas + 4 * i, picture + 4 * i);
+  if (i == count) return;
+  over_vector(First{hn::FirstN(Words(), count - i)}, canvas + 4 * i, picture + 4 * i);
+}
+
+// Opaque pixels are copied at once, then each of the mixed ones is visited. Returns the pixels
+// done.
+template <class Access>
+HWY_INLINE std::size_t over_linear_vector(const Access& access, std::uint8_t* canvas,
+                                          const std::uint8_t* picture, std::size_t lanes) {
+  const Words d;
+  const WordVector over = access.load(picture);
+  const WordMask clear = hn::Eq(over, hn::Zero(d));
+  if (hn::AllTrue(d, clear)) return lanes;
+  const WordMask solid = opaque(over);
+  if (hn::AllTrue(d, solid)) {
+    access.store(over, canvas);
+    return lanes;
+  }
+  access.store(hn::IfThenElse(solid, over, access.load(canvas)), canvas);
+  std::uint64_t edge = 0;
+  hn::StoreMaskBits(d, hn::Not(hn::Or(clear, solid)), reinterpret_cast<std::uint8_t*>(&edge));
+  for (; edge != 0; edge &= edge - 1) {
+    const auto k = static_cast<std::size_t>(std::countr_zero(edge));
+    if (k >= lanes) break;
+    if (canvas[4 * k + 3] != 255) return k;  // what follows is copied again later, to no harm
+    mix_linear(canvas + 4 * k, picture + 4 * k);
+  }
+  return lanes;
+}
+
+std::size_t over_linear_row(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) {
+  const std::size_t lanes = hn::Lanes(Words());
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const std::size_t done = over_linear_vector(Whole{}, canvas + 4 * i, picture + 4 * i, lanes);
+    if (done < lanes) return i + done;
+  }
+  if (i == count) return i;
+  return i + over_linear_vector(First{hn::FirstN(Words(), count - i)}, canvas + 4 * i,
+                                picture + 4 * i, count - i);
+}
+
+// (w a + (256 - w) b) / 256 in 16 bits, 0 < w < 256.
+template <class V>
+V between(V a, V b, std::uint16_t w) {
+  const Pairs d;
+  return hn::Add(hn::MulHigh(a, hn::Set(d, static_cast<std::uint16_t>(w << 8))),
+                 hn::MulHigh(b, hn::Set(d, static_cast<std::uint16_t>((256 - w) << 8))));
+}
+
+void between_deep_row(const Deep* above, const Deep* row, Between at, std::uint16_t opacity,
+                      Deep* out, std::size_t count) {
+  const Pairs d;
+  const auto across = [&](const Deep* p) {
+    const auto right = hn::LoadU(d, p + 4);
+    return at.left == 0 ? right : between(hn::LoadU(d, p), right, at.left);
+  };
+  for (std::size_t i = 0; i < 4 * count; i += hn::Lanes(d)) {
+    auto v = across(row + i);
+    if (at.above != 0) v = between(across(above + i), v, at.above);
+    if (opacity < 256) v = hn::MulHigh(v, hn::Set(d, static_cast<std::uint16_t>(opacity << 8)));
+    hn::StoreU(v, d, out + i);
+  }
+}
+
+// Sums of bytes times weights of 256, kept at 16 bits until canvas and picture are added: the bytes
+// come out as if they had been rounded once.
+template <class Access>
+HWY_INLINE void over_between_vector(const Access& access, std::uint8_t* canvas,
+                                    const std::uint8_t* above, const std::uint8_t* row, Between at,
+                                    std::uint16_t opacity) {
+  const Pairs d;
+  const Bytes bytes;
+  const auto a = hn::LoadU(bytes, above), b = hn::LoadU(bytes, above + 4);
+  const auto e = hn::LoadU(bytes, row), f = hn::LoadU(bytes, row + 4);
+  const auto any = hn::BitCast(Words(), hn::Or(hn::Or(a, b), hn::Or(e, f)));
+  if (hn::AllTrue(Words(), hn::Eq(any, hn::Zero(Words())))) return;
+  const auto low = hn::Set(d, std::uint16_t{0x00FF});
+  const auto left = hn::Set(d, at.left);
+  const auto right = hn::Set(d, static_cast<std::uint16_t>(256 - at.left));
+  const auto half = [&](auto take) {  // 256 times the even or the odd bytes, at most 65280
+    const auto across = [&](auto p, auto q) {
+      return hn::Add(hn::Mul(take(hn::BitCast(d, p)), left),
+                     hn::Mul(take(hn::BitCast(d, q)), right));
+    };
+    auto v = across(e, f);
+    if (at.above != 0) v = between(across(a, b), v, at.above);
+    if (opacity < 256) v = hn::MulHigh(v, hn::Set(d, static_cast<std::uint16_t>(opacity << 8)));
+    return v;
+  };
+  alignas(16) static constexpr std::uint8_t kAlphas[16] = {2,  3,  2,  3,  6,  7,  6,  7,
+                                                           10, 11, 10, 11, 14, 15, 14, 15};
+  const auto even = half([&](auto v) { return hn::And(v, low); });
+  const auto odd = half([&](auto v) { return hn::ShiftRight<8>(v); });
+  const auto alpha = hn::TableLookupBytes(odd, hn::BitCast(d, hn::LoadDup128(bytes, kAlphas)));
+  const auto rest = hn::Sub(hn::Set(d, std::uint16_t{65280}), alpha);
+  const auto under = hn::BitCast(d, access.load(canvas));
+  const auto scale = hn::Set(d, std::uint16_t{257});
+  const auto mixed = [&](auto over, auto kept) {
+    const auto sum = hn::Add(over, hn::MulHigh(hn::Mul(kept, scale), rest));
+    return hn::ShiftRight<8>(hn::Add(sum, hn::Set(d, std::uint16_t{128})));
+  };
+  const auto out_even = mixed(even, hn::And(under, low));
+  const auto out_odd = mixed(odd, hn::ShiftRight<8>(under));
+  access.store(hn::BitCast(Words(), hn::Or(out_even, hn::ShiftLeft<8>(out_odd))), canvas);
+}
+
+void over_between_row(std::uint8_t* canvas, const std::uint8_t* above, const std::uint8_t* row,
+                      Between at, std::uint16_t opacity, std::size_t count) {
+  const std::size_t lanes = hn::Lanes(Words());
+  if (at.above == 0) above = row;
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    over_between_vector(Whole{}, canvas + 4 * i, above + 4 * i, row + 4 * i, at, opacity);
+  }
+  if (i == count) return;
+  over_between_vector(First{hn::FirstN(Words(), count - i)}, canvas + 4 * i, above + 4 * i,
+                      row + 4 * i, at, opacity);
+}
+
+#endif
+
+}  // namespace
+}  // namespace vsprite::detail::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace vsprite::detail {
+
+HWY_EXPORT(over_encoded_row);
+HWY_EXPORT(over_linear_row);
+HWY_EXPORT(over_deep_row);
+HWY_EXPORT(to_deep_row);
+HWY_EXPORT(over_between_row);
+HWY_EXPORT(between_deep_row);
+
+void over_encoded(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) noexcept {
+  HWY_DYNAMIC_DISPATCH(over_encoded_row)(canvas, picture, count);
+}
+
+std::size_t over_linear(std::uint8_t* canvas, const std::uint8_t* picture,
+                        std::size_t count) noexcept {
+  return HWY_DYNAMIC_DISPATCH(over_linear_row)(canvas, picture, count);
+}
+
+std::size_t over_deep(std::uint8_t* canvas, const Deep* picture, std::size_t count) noexcept {
+  return HWY_DYNAMIC_DISPATCH(over_deep_row)(canvas, picture, count);
+}
+
+void to_deep(const std::uint8_t* picture, Deep* out, std::size_t count) noexcept {
+  HWY_DYNAMIC_DISPATCH(to_deep_row)(picture, out, count);
+}
+
+void over_between(std::uint8_t* canvas, const std::uint8_t* above, const std::uint8_t* row,
+                  Between at, std::uint16_t opacity, std::size_t count) noexcept {
+  HWY_DYNAMIC_DISPATCH(over_between_row)(canvas, above, row, at, opacity, count);
+}
+
+void between_deep(const Deep* above, const Deep* row, Between at, std::uint16_t opacity, Deep* out,
+                  std::size_t count) noexcept {
+  HWY_DYNAMIC_DISPATCH(between_deep_row)(above, row, at, opacity, out, count);
+}
+
+}  // namespace vsprite::detail
+#endif  // HWY_ONCE
