@@ -35,17 +35,19 @@ expect 0 vsprite validate hero.vsp
 expect 0 vsprite info hero.vsp --json
 for section in ACTN EVNT BODY; do grep -q "\"$section\"" "$room/stdout" || fail "the pack has no section $section"; done
 
-# The tag shows at the latest at the n-th step after the request at tick 30; after the release at
-# tick 90 it lands, and goes on as commanded.
-expect 0 vsprite dump --work hero.work --what samples --format csv -o samples.csv
-tag_column=$(head -1 samples.csv | tr , '\n' | grep -n '^tag$' | cut -d: -f1)
-shown() { awk -F, -v c="$tag_column" 'FNR == 1 { f++; next } f == 1 { t[$1] = $c; next } { print t[$2] }' samples.csv trace.csv; }
+# 25 ticks a second. The tag shows at the latest at the n-th step after the request at tick 25; after
+# the release at tick 75 it lands, and goes on as commanded.
+tag_column=$(head -1 hero.work/samples.csv | tr , '\n' | grep -n '^tag$' | cut -d: -f1)
+shown() {
+  awk -F, -v c="$tag_column" 'FNR == 1 { f++; next } f == 1 { t[$1] = $c; next } { print t[$2] }' \
+    hero.work/samples.csv trace.csv
+}
 for within in 0 2 4 8; do
   expect 0 vsprite steer hero.vsp --keys "0 right; 1 play jump $within; 3 release 4" --frames 150 --trace trace.csv
-  late=$((30 + (within > 1 ? within : 1)))
+  late=$((25 + (within > 1 ? within : 1)))
   shown | head -"$late" | grep -qx jump.start || fail "jump.start is not shown by tick $late"
-  shown | sed -n 80p | grep -qx jump.air || fail "it does not stay in the air"
-  shown | sed -n 91,94p | grep -qx jump.end || fail "it does not land within 4"
+  shown | sed -n 70p | grep -qx jump.air || fail "it does not stay in the air"
+  shown | sed -n 76,79p | grep -qx jump.end || fail "it does not land within 4"
   shown | tail -1 | grep -q '^jump' && fail "it does not go on"
 done
 expect 2 vsprite steer hero.vsp --keys "0 play fly"
