@@ -14,12 +14,14 @@ namespace detail {
 namespace {
 
 constexpr int kAhead = 12;          // L
-constexpr double kTrailWeight = 1;  // w
+constexpr double kTrailWeight = 2;  // w
 constexpr double kGoWeight = 1;
 constexpr bool kTurning = true;
 constexpr double kLeash = 1.0 / 3;  // body lengths
 constexpr double kPull = 0.09;      // a tick, of the speed at most
 constexpr double kSpring = 0.08;    // a tick, of the offset
+constexpr double kLostShare = 0.9;  // of the leash
+constexpr double kLostPace = 0.5;   // of the speed, along the way
 constexpr double kRateOne = 65536;
 
 struct Velocity {
@@ -73,6 +75,16 @@ Beyond make_beyond(const SpriteData& data, const ControlMode& mode, const Actor&
   beyond.second = table(near);
   beyond.share = b / (a + b);
   return beyond;
+}
+
+// At the end of the leash and not getting on: what lies within reach of a look ahead does not lead
+// out of there, the mode's own tables do.
+bool is_lost(const Sprite::Impl& impl, const Actor& actor) noexcept {
+  const Velocity o{actor.offset_x * kOffsetUnit, actor.offset_y * kOffsetUnit};
+  if (o.length() < kLostShare * leash_of(impl.data)) return false;
+  const Velocity v = drive_of(actor);
+  const Sample& s = impl.data.samples[actor.sample];
+  return v.x * s.step_x + v.y * s.step_y < kLostPace * v.length() * v.length();
 }
 
 // What a jump to a sample leads to: how far the drawn character would leave the body.
@@ -159,6 +171,12 @@ void advance_following(const Sprite::Impl& impl, Actor& actor) noexcept {
   if (actor.group >= mode.headings) {
     actor.stage = 0;
     return show_steered(impl, actor);
+  }
+  if (is_lost(impl, actor)) {
+    actor.stage = static_cast<std::uint8_t>(mode.by_state ? mode.stages - 1 : 0);
+    show_steered(impl, actor);
+    actor.skipped = 0;
+    return;
   }
   const Chooser chooser(impl, actor);
   std::uint32_t best = mode.next[std::size_t{table} * data.samples.size() + i];
