@@ -12,12 +12,18 @@
 #include <cmath>
 #include <new>
 
-#include "pack_format.h"
+#include "actor_parts.h"
+#include "vsprite/owner.h"
 #include "vsprite/policy.h"
 
 namespace vsprite {
 namespace {
 
+using detail::Displacement;
+using detail::move_by;
+using detail::moved;
+using detail::show;
+using detail::stays;
 using detail::TickTable;
 
 const ControlMode& mode_of(const Sprite& sprite, const Actor& actor) noexcept {
@@ -28,59 +34,71 @@ std::uint32_t followed(const ControlMode& mode, Direction command) noexcept {
   return group_of(mode, mode.table_of[static_cast<std::size_t>(command)]);
 }
 
-// Wraps instead of overflowing, which a hostile pack could reach after some billion ticks.
-std::int64_t moved(std::int64_t position, std::int64_t by) noexcept {
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(position) +
-                                   static_cast<std::uint64_t>(by));
+PositionOwner owner_of(const Actor& actor) noexcept {
+  return static_cast<PositionOwner>(actor.owner & kOwnerKind);
 }
 
-struct Displacement {
-  std::int64_t x = 0, y = 0;
-};
-
-// What a tick moves: the step of the shown sample, and in the first tick after a sample was left
-// out, all of that one's.
-Displacement displacement(const Sprite::Impl& impl, const Actor& actor) noexcept {
-  const TickTable& table = impl.ticks[actor.mode];
-  const auto step_of = [&](std::uint32_t sample) -> Displacement {
-    const std::uint32_t* record = table.record(sample, actor.bent);
-    return {static_cast<std::int32_t>(record[0]), static_cast<std::int32_t>(record[1])};
+// What the owner of the position moves it by.
+Displacement owned_step(const Sprite::Impl& impl, const Actor& actor) noexcept {
+  if (owner_of(actor) == PositionOwner::Game) return {actor.drive_x, actor.drive_y};
+  const Displacement filmed = detail::recorded_step(impl, actor);
+  if (owner_of(actor) != PositionOwner::Scaled) return filmed;
+  static constexpr std::int64_t kMost = std::int64_t{1} << 40;  // only a hostile pack moves so far
+  const auto scaled = [](std::int64_t by, std::int64_t factor) {
+    return std::clamp(by, -kMost, kMost) * factor >> 16;
   };
-  Displacement d = step_of(actor.sample);
-  if (actor.skipped == 0) return d;
-  const Displacement more = step_of(actor.sample - 1);
-  const std::int64_t duration = impl.data.samples[actor.sample - 1].duration;
-  return {d.x + more.x * duration, d.y + more.y * duration};
+  return {scaled(filmed.x, actor.drive_x), scaled(filmed.y, actor.drive_y)};
 }
 
-void move_by(Actor& actor, Displacement by) noexcept {
-  ++actor.tick;
-  actor.position.x = moved(actor.position.x, by.x);
-  actor.position.y = moved(actor.position.y, by.y);
+// One film tick of an actor that plays an action, or is moved by another than the film.
+void advance(const Sprite::Impl& impl, Actor& actor) noexcept {
+  if (actor.action != 0) {
+    // Where an action moves is its own.
+    actor.bent = static_cast<std::uint8_t>(impl.data.modes[actor.mode].headings);
+    return detail::advance_action(impl, actor);
+  }
+  actor.bent = actor.group;
+  if (owner_of(actor) == PositionOwner::Game) return detail::advance_following(impl, actor);
+  if (!stays(impl, actor)) detail::show_steered(impl, actor);
 }
 
-// Keeps showing the sample, if its time is not over.
-bool stays(const Sprite::Impl& impl, Actor& actor) noexcept {
-  if (actor.shown >= impl.data.samples[actor.sample].duration) return false;
-  ++actor.shown;
+// As many film ticks as pass in one of a body that the game moves: 0, 1 or 2.
+void advance_by_clock(const Sprite::Impl& impl, Actor& actor) noexcept {
+  const std::uint32_t passed = actor.clock + detail::clock_rate(impl, actor);
+  actor.clock = static_cast<std::uint16_t>(passed & 0xFFFFu);
   actor.jumped = actor.skipped = 0;
-  return true;
+  std::uint8_t jumped = 0;
+  const std::uint32_t before = actor.sample;
+  for (std::uint32_t k = passed >> 16; k > 0; --k) {
+    advance(impl, actor);
+    jumped |= actor.jumped;
+  }
+  actor.jumped = jumped;
+  // Two samples of the film in one tick: the first one's events count too.
+  if (jumped == 0 && actor.sample == before + 2) actor.skipped = 1;
 }
 
-// Shows what a table chose, or a near tie of it.
-void show(Actor& actor, std::uint32_t table, std::uint32_t move) noexcept {
-  actor.sample = move & detail::kMoveSample;
-  actor.shown = 1;
-  actor.table = static_cast<std::uint8_t>(table);
-  actor.stage = static_cast<std::uint8_t>(move >> detail::kMoveStageShift & detail::kMoveStage);
-  actor.jumped = static_cast<std::uint8_t>(move >> detail::kMoveJumpedShift & 1u);
-  actor.skipped = static_cast<std::uint8_t>(move >> detail::kMoveSkippedShift & 1u);
+void directed_tick(const Sprite::Impl& impl, Actor& actor) noexcept {
+  if (owner_of(actor) == PositionOwner::Game) detail::trail(impl, actor).put(actor);
+  const std::uint32_t sample = actor.sample;
+  const std::uint16_t shown = actor.shown;
+  actor.owner &= kOwnerKind;
+  move_by(actor, owned_step(impl, actor));
+  if (owner_of(actor) == PositionOwner::Game) {
+    advance_by_clock(impl, actor);
+  } else {
+    advance(impl, actor);
+  }
+  const bool again = actor.sample == sample && (actor.shown != 1 || shown == 1);
+  if (again) actor.owner |= kOwnerStill;
 }
 
 // One tick by the tables. Without a branch that depends on the film: a sample that was left out
 // counts zero times where none was, and what stays takes its old values.
 inline void tick(const Sprite::Impl& impl, Actor& actor) noexcept {
   using namespace detail;
+  if ((actor.action | actor.owner) != 0) [[unlikely]]
+    return directed_tick(impl, actor);
   const TickTable& table = impl.ticks[actor.mode];
   const std::uint32_t* record = table.record(actor.sample, actor.bent);
   const std::uint32_t* before = record - actor.skipped * table.stride();
@@ -89,7 +107,7 @@ inline void tick(const Sprite::Impl& impl, Actor& actor) noexcept {
   const std::uint32_t move = table.record(actor.sample, actor.group)[2 + actor.stage];
   const std::uint32_t shown_for = move >> kMoveShownShift;
   if (lasted == kLongShown || shown_for == kLongShown) [[unlikely]] {
-    move_by(actor, displacement(impl, actor));
+    move_by(actor, recorded_step(impl, actor));
     actor.bent = actor.group;
     if (!stays(impl, actor)) show(actor, index, move);
     return;
@@ -168,12 +186,12 @@ float score(const Actor& actor, const StepWish& wish, const Outlook& outlook) no
   return wish.pace == Pace::Fast ? speed : -speed;
 }
 
-// SplitMix64 (Steele, Lea, Flood 2014).
-std::uint64_t draw(std::uint64_t& state) noexcept {
-  std::uint64_t z = (state += 0x9E3779B97F4A7C15u);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
+// PCG (O'Neill 2014), 32 bits of state.
+std::uint32_t draw(std::uint32_t& state) noexcept {
+  const std::uint32_t old = state;
+  state = old * 747796405u + 2891336453u;
+  const std::uint32_t word = ((old >> ((old >> 28) + 4)) ^ old) * 277803737u;
+  return word >> 22 ^ word;
 }
 
 std::uint32_t choose(const Sprite& sprite, Actor& actor, std::uint32_t table,
@@ -207,10 +225,27 @@ double cosine_to(const ControlMode& mode, std::uint32_t heading, double x, doubl
 
 }  // namespace
 
+namespace detail {
+
+Displacement recorded_step(const Sprite::Impl& impl, const Actor& actor) noexcept {
+  const TickTable& table = impl.ticks[actor.mode];
+  const auto step_of = [&](std::uint32_t sample) -> Displacement {
+    const std::uint32_t* record = table.record(sample, actor.bent);
+    return {static_cast<std::int32_t>(record[0]), static_cast<std::int32_t>(record[1])};
+  };
+  Displacement d = step_of(actor.sample);
+  if (actor.skipped == 0) return d;
+  const Displacement more = step_of(actor.sample - 1);
+  const std::int64_t duration = impl.data.samples[actor.sample - 1].duration;
+  return {d.x + more.x * duration, d.y + more.y * duration};
+}
+
+}  // namespace detail
+
 Actor make_actor(const Sprite& sprite, Vec2 position, std::uint64_t seed, int mode) noexcept {
   Actor actor;
   actor.position = to_position(position);
-  actor.random = seed;
+  actor.random = static_cast<std::uint32_t>(seed ^ seed >> 32);
   actor.sample = sprite.data().start_sample;
   actor.shown = 1;
   actor.mode = static_cast<std::uint8_t>(mode);
@@ -290,8 +325,9 @@ void step(const Sprite& sprite, std::span<Actor> actors) noexcept {
 
 void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept {
   const Sprite::Impl& impl = sprite.impl();
+  if ((actor.action | actor.owner) != 0) return directed_tick(impl, actor);
   const ControlMode& mode = mode_of(sprite, actor);
-  move_by(actor, displacement(impl, actor));
+  move_by(actor, detail::recorded_step(impl, actor));
   actor.bent = actor.group;
   if (stays(impl, actor)) return;
   const std::uint32_t table = actor.group * mode.stages + actor.stage;
@@ -301,16 +337,26 @@ void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept {
 }
 
 Vec2 draw_position(const Sprite& sprite, const Actor& actor, float fraction) noexcept {
-  const Displacement by = displacement(sprite.impl(), actor);
-  const double x = static_cast<double>(actor.position.x) +
-                   static_cast<double>(fraction) * static_cast<double>(by.x);
-  const double y = static_cast<double>(actor.position.y) +
-                   static_cast<double>(fraction) * static_cast<double>(by.y);
+  const Displacement by = owned_step(sprite.impl(), actor);
+  const double f = static_cast<double>(fraction);
+  double x = static_cast<double>(actor.position.x) + f * static_cast<double>(by.x);
+  double y = static_cast<double>(actor.position.y) + f * static_cast<double>(by.y);
+  if ((actor.offset_x | actor.offset_y) != 0 || owner_of(actor) == PositionOwner::Game) {
+    Actor after = actor;
+    if (owner_of(actor) == PositionOwner::Game) detail::trail(sprite.impl(), actor).put(after);
+    x += detail::kOffsetUnit * ((1 - f) * actor.offset_x + f * after.offset_x);
+    y += detail::kOffsetUnit * ((1 - f) * actor.offset_y + f * after.offset_y);
+  }
   return {static_cast<float>(x / kFixedOne), static_cast<float>(y / kFixedOne)};
 }
 
 float shown_cost(const Sprite& sprite, std::uint32_t before, const Actor& after) noexcept {
-  return after.jumped ? sprite.transition_cost(before, after.sample) : 0;
+  if (after.jumped == 0) return 0;
+  const float cost = sprite.transition_cost(before, after.sample);
+  if (std::isfinite(cost)) return cost;
+  for (const ActionTable& table : sprite.data().actions)
+    if (table.cut[before] == after.sample) return table.cut_cost[before];
+  return cost;
 }
 
 static_assert(sizeof(XXH3_state_t) <= StateHash::kStateBytes);

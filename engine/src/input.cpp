@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "file.h"
+#include "vsprite/action.h"
 
 namespace vsprite {
 namespace {
@@ -43,7 +44,43 @@ std::uint64_t tick_of(double seconds, double fps) {
   return static_cast<std::uint64_t>(std::fabs(exact - near) < 1e-6 ? near : std::ceil(exact));
 }
 
-Result<ScriptEntry> parse_entry(std::string_view entry, double fps, const std::string& where) {
+std::string_view take_word(std::string_view& text) {
+  const std::string_view word = text.substr(0, std::min(text.find_first_of(kBlank), text.size()));
+  text = trim(text.substr(word.size()));
+  return word;
+}
+
+// The words after the time, where the first says that they are about an action.
+std::optional<ScriptAction> parse_action(std::string_view words, bool& fits) {
+  using Verb = ScriptAction::Verb;
+  constexpr std::pair<std::string_view, Verb> kVerbs[] = {{"play", Verb::Play},
+                                                          {"hold", Verb::Hold},
+                                                          {"queue", Verb::Queue},
+                                                          {"release", Verb::Release},
+                                                          {"cancel", Verb::Cancel}};
+  const std::string_view first = take_word(words);
+  for (const auto& [name, verb] : kVerbs) {
+    if (name != first) continue;
+    ScriptAction action;
+    action.verb = verb;
+    const bool is_named = verb != Verb::Release && verb != Verb::Cancel;
+    if (is_named) action.name = take_word(words);
+    fits = !is_named || !action.name.empty();
+    if (!words.empty() && verb != Verb::Queue && verb != Verb::Cancel) {
+      const std::string_view number = take_word(words);
+      const auto [end, error] =
+          std::from_chars(number.data(), number.data() + number.size(), action.within);
+      fits = fits && error == std::errc() && end == number.data() + number.size() &&
+             action.within >= 0 && action.within <= 65535;
+    }
+    fits = fits && words.empty();
+    return action;
+  }
+  return std::nullopt;
+}
+
+Result<void> parse_entry(std::string_view entry, double fps, const std::string& where,
+                         KeyScript& script) {
   const auto bad = [&](const std::string& what) {
     return Error{ErrorCode::BadSetting, where + " " + quoted(entry) + ": " + what};
   };
@@ -61,12 +98,24 @@ Result<ScriptEntry> parse_entry(std::string_view entry, double fps, const std::s
   }
   if (name.empty())
     return bad("no direction, seconds and a direction are due, as in \"2.5 right\"");
+  bool fits = false;
+  if (auto action = parse_action(name, fits)) {
+    if (!fits)
+      return bad(
+          "an action, its name and perhaps the ticks that it may take are due, as in \"2.5 "
+          "play jump 4\", \"3 hold wave\", \"3.5 queue jump\", \"4 release\", \"5 cancel\"");
+    action->tick = tick_of(seconds, fps);
+    script.actions.push_back(std::move(*action));
+    return {};
+  }
   const std::optional<Direction> direction = parse_direction(name);
   if (!direction) {
     return bad("unknown direction " + quoted(name) +
-               ", due one of right, left, up, down, a pair such as right+up, none, rest");
+               ", due one of right, left, up, down, a pair such as right+up, none, rest; or play, "
+               "hold, queue, release, cancel");
   }
-  return ScriptEntry{tick_of(seconds, fps), *direction};
+  script.entries.push_back({tick_of(seconds, fps), *direction});
+  return {};
 }
 
 Result<KeyScript> parse(std::string_view text, double fps, const std::string& name) {
@@ -81,13 +130,14 @@ Result<KeyScript> parse(std::string_view text, double fps, const std::string& na
       rest.remove_prefix(std::min(part.size() + 1, rest.size()));
       const std::string_view entry = trim(part);
       if (entry.empty()) continue;
-      auto parsed = parse_entry(entry, fps, name + ": entry " + std::to_string(++number));
+      auto parsed = parse_entry(entry, fps, name + ": entry " + std::to_string(++number), script);
       if (!parsed) return parsed.error();
-      script.entries.push_back(*parsed);
     }
   }
   std::stable_sort(script.entries.begin(), script.entries.end(),
                    [](const ScriptEntry& a, const ScriptEntry& b) { return a.tick < b.tick; });
+  std::stable_sort(script.actions.begin(), script.actions.end(),
+                   [](const ScriptAction& a, const ScriptAction& b) { return a.tick < b.tick; });
   return script;
 }
 
@@ -139,6 +189,35 @@ Result<KeyScript> load_key_script(const std::string& script, double fps) {
                  script + ": no such file, and no key script such as \"0.0 right; 2.5 right+up\""};
   }
   return parse_named(script, fps, "key script");
+}
+
+Result<void> check_key_script(const Sprite& sprite, const KeyScript& script) {
+  for (const ScriptAction& action : script.actions) {
+    if (action.name.empty() || find_action(sprite, action.name) >= 0) continue;
+    std::string known;
+    for (const Action& a : sprite.actions()) known += (known.empty() ? "" : ", ") + a.name;
+    return Error{ErrorCode::BadSetting,
+                 "key script: no action " + quoted(action.name) + ", " +
+                     (known.empty() ? "the pack has none: tags of a cast make them"
+                                    : "the pack has " + known)};
+  }
+  return {};
+}
+
+void play_script(const Sprite& sprite, const KeyScript& script, std::uint64_t tick,
+                 Actor& actor) noexcept {
+  using Verb = ScriptAction::Verb;
+  auto at =
+      std::lower_bound(script.actions.begin(), script.actions.end(), tick,
+                       [](const ScriptAction& action, std::uint64_t t) { return action.tick < t; });
+  for (; at != script.actions.end() && at->tick == tick; ++at) {
+    if (at->verb == Verb::Cancel) cancel(sprite, actor);
+    if (at->verb == Verb::Release) release(sprite, actor, at->within);
+    if (at->verb == Verb::Play) play(sprite, actor, at->name, at->within);
+    if (at->verb == Verb::Hold) play(sprite, actor, at->name, at->within, true);
+    const int queued = at->verb == Verb::Queue ? find_action(sprite, at->name) : -1;
+    if (queued >= 0) queue(sprite, actor, queued);
+  }
 }
 
 }  // namespace vsprite

@@ -106,6 +106,7 @@ Result<Sprite> load_pack_from(ByteSource source) {
     complete(*impl);
     impl->frames = std::move(content.frames);
     impl->fram_offset = content.fram_offset;
+    impl->identity = content.identity;
     impl->source = std::move(source);
     return Sprite(std::move(impl));
   } catch (const std::bad_alloc&) {

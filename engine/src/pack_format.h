@@ -82,6 +82,7 @@ struct FrameEntry {
 /// Everything of a pack but its pictures.
 struct PackContent {
   std::uint16_t major = 0, minor = 0;
+  std::uint64_t identity = 0;  ///< the header's sum
   std::vector<SectionEntry> sections;
   SpriteData data;
   std::vector<FrameEntry> frames;
@@ -172,8 +173,12 @@ namespace vsprite {
 
 struct Sprite::Impl {
   SpriteData data;
-  std::vector<detail::TickTable> ticks;    ///< a mode
-  detail::ByteSource source;               ///< where the pictures lie
+  std::vector<detail::TickTable> ticks;  ///< a mode
+  std::uint64_t identity = 0;
+  std::vector<Action> action_list;
+  std::vector<std::uint32_t> pace;  ///< (N) mean step length about a sample, 1/65536 px
+  std::uint32_t usual_step = 0;     ///< median length of the steps of moving samples, 1/65536 px
+  detail::ByteSource source;        ///< where the pictures lie
   std::vector<detail::FrameEntry> frames;  ///< empty: a sprite from data alone
   std::uint64_t fram_offset = 0;
   std::mutex mutex;        ///< guards the two below

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "pack_format.h"
+#include "sections.h"
 
 namespace vsprite::detail {
 namespace {
@@ -419,6 +420,7 @@ Check read_header(const ByteSource& source, PackContent& content) {
                   [](auto c) { return c != 0; })) {
     return finding("reserved", "", 32, "reserved bytes are not 0");
   }
+  content.identity = header.sum;
   if (Check bad = read_entries(table, content)) return bad;
   if (Check bad = check_layout(content, header.file_bytes)) return bad;
   return check_names(content);
@@ -440,6 +442,7 @@ Check read_content(const ByteSource& source, PackContent& content) {
     if (Check bad = read_mode(section, data)) return bad;
   }
   if (Check bad = locate(check_sprite_data(data), content)) return bad;
+  if (Check bad = read_optional(source, content)) return bad;
   if (Check bad = locate(check_picture_sizes(data), content)) return bad;
   if (Check bad = read_section(source, entry_of(content, "FIDX"), section)) return bad;
   return read_frames(section, content);

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "pack_format.h"
+#include "sections.h"
 
 namespace vsprite {
 namespace detail {
@@ -198,12 +199,16 @@ Result<void> write_pack(const std::string& path, const SpriteData& data,
                         const FrameSource& frames) {
   auto file = FileWriter::create(path);
   if (!file) return file.error();
-  PackWriter pack(std::move(*file), 5 + data.modes.size());
+  const std::vector<OptionalSection> optional = optional_sections(data);
+  PackWriter pack(std::move(*file), 5 + data.modes.size() + optional.size());
   if (auto done = pack.section("META", meta_bytes(data)); !done) return done;
   if (auto done = pack.section("SAMP", sample_bytes(data)); !done) return done;
   if (auto done = pack.section("TRAN", transition_bytes(data)); !done) return done;
   for (const ControlMode& mode : data.modes) {
     if (auto done = pack.section("CTRL", mode_bytes(mode)); !done) return done;
+  }
+  for (const OptionalSection& extra : optional) {
+    if (auto done = pack.section(extra.name, extra.bytes); !done) return done;
   }
   // The index stands before the pictures but is known only after them: its place is kept free.
   Bytes index;

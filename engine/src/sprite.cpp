@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "pack_format.h"
+#include "sections.h"
 
 namespace vsprite {
 namespace detail {
@@ -286,6 +287,39 @@ Check check_modes(const SpriteData& data) {
 
 }  // namespace
 
+namespace {
+
+// Moving: faster than a quarter of the 95th percentile of speed.
+std::uint32_t usual_step(std::span<const Sample> samples) {
+  std::vector<std::uint32_t> steps;
+  for (const Sample& s : samples)
+    if (s.kept != 0) steps.push_back(s.step_length);
+  std::sort(steps.begin(), steps.end());
+  if (steps.empty()) return 0;
+  const std::uint32_t least = steps[steps.size() * 95 / 100] / 4;
+  const auto first = std::upper_bound(steps.begin(), steps.end(), least);
+  return first == steps.end() ? 0 : *(first + (steps.end() - first) / 2);
+}
+
+// Over a stride or so of the clip, so that it does not swing with every step of a leg.
+std::vector<std::uint32_t> pace_of(std::span<const Sample> samples) {
+  constexpr std::size_t kReach = 6;
+  std::vector<std::uint32_t> pace(samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    std::uint64_t sum = 0, count = 0;
+    const std::size_t last = std::min(samples.size() - 1, i + kReach);
+    for (std::size_t j = i < kReach ? 0 : i - kReach; j <= last; ++j) {
+      if (samples[j].clip != samples[i].clip) continue;
+      sum += samples[j].step_length;
+      ++count;
+    }
+    pace[i] = static_cast<std::uint32_t>(sum / count);
+  }
+  return pace;
+}
+
+}  // namespace
+
 Finding finding(std::string_view code, std::string_view section, std::uint64_t offset,
                 std::string message, ErrorCode error) {
   return {error, {std::string(code), "error", std::string(section), offset, std::move(message)}};
@@ -297,13 +331,17 @@ Check check_sprite_data(const SpriteData& data) {
     if (Check bad = check_sample(data, i)) return bad;
   }
   if (Check bad = check_transitions(data)) return bad;
-  return check_modes(data);
+  if (Check bad = check_modes(data)) return bad;
+  return check_optional(data);
 }
 
 void complete(Sprite::Impl& impl) {
   for (Sample& s : impl.data.samples) s.step_length = step_length(s.step_x, s.step_y);
+  impl.usual_step = usual_step(impl.data.samples);
+  impl.pace = pace_of(impl.data.samples);
   for (const ControlMode& mode : impl.data.modes)
     impl.ticks.push_back(make_tick_table(impl.data, mode));
+  impl.action_list = list_actions(impl.data);
 }
 
 Check check_picture_sizes(const SpriteData& data) {

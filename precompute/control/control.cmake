@@ -1,9 +1,12 @@
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
 target_sources(vsprite_precompute PRIVATE
+  control/actions.cpp
+  control/action_bench.cpp
   control/advice.cpp
   control/bench.cpp
   control/flip.cpp
+  control/follow_bench.cpp
   control/joint.cpp
   control/lanes.cpp
   control/solve.cpp

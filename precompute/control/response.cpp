@@ -251,6 +251,7 @@ void tally_steering(const Sprite& sprite, int mode, const KeyScript& script, std
     const Direction wanted = script.at(tick);
     if (wanted != actor.direction) meter.command(actor, wanted, tick);
     set_direction(sprite, actor, wanted);
+    play_script(sprite, script, tick, actor);
     meter.look(actor.position, tick);
     const Actor before = actor;
     step(sprite, actor);
@@ -260,7 +261,8 @@ void tally_steering(const Sprite& sprite, int mode, const KeyScript& script, std
     tally.costs.push_back(static_cast<double>(shown_cost(sprite, before.sample, actor)));
     tally.jumps += actor.jumped;
     const bool over = before.shown >= sprite.samples()[before.sample].duration;
-    tally.freezes += over && actor.sample == before.sample;
+    // What an action holds is no freeze.
+    tally.freezes += over && actor.sample == before.sample && actor.action == 0;
     if (trace) {
       trace->push_back({actor.tick, actor.sample,
                         static_cast<double>(actor.position.x) / static_cast<double>(kFixedOne),

@@ -3,9 +3,11 @@
 #include "tool/build_pack.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
+#include "control/actions.h"
 #include "tool/stages.h"
 #include "vsprite/pack.h"
 
@@ -44,10 +46,10 @@ Sample make_sample(const SampleRow& row, const FilmFacts& film, bool kept) {
   return sample;
 }
 
-float median_side(const std::vector<Sample>& samples, std::span<const int> body_sides) {
+float median_side(const std::vector<Sample>& samples, std::span<const OpaqueBox> boxes) {
   std::vector<int> sides;
-  for (std::size_t i = 0; i < samples.size() && i < body_sides.size(); ++i)
-    if (samples[i].kept == 1 && body_sides[i] > 0) sides.push_back(body_sides[i]);
+  for (std::size_t i = 0; i < samples.size() && i < boxes.size(); ++i)
+    if (samples[i].kept == 1 && boxes[i].right > 0) sides.push_back(boxes[i].longer_side());
   if (sides.empty()) return 1;
   std::sort(sides.begin(), sides.end());
   const std::size_t half = sides.size() / 2;
@@ -55,16 +57,77 @@ float median_side(const std::vector<Sample>& samples, std::span<const int> body_
   return static_cast<float>(sum) / 2;
 }
 
-std::vector<int> measure_bodies(PictureReader& reader, std::size_t count, Result<void>& state) {
-  std::vector<int> sides;
+std::vector<OpaqueBox> measure_bodies(PictureReader& reader, std::size_t count,
+                                      Result<void>& state) {
+  std::vector<OpaqueBox> boxes;
   for (std::size_t i = 0; i < count && state; ++i) {
     const auto picture = reader.picture(static_cast<int>(i));
     if (!picture)
       state = picture.error();
     else
-      sides.push_back(body_side(*picture));
+      boxes.push_back(opaque_box(*picture));
   }
-  return sides;
+  return boxes;
+}
+
+// One box a tag: where 90 % of its pictures end, about the anchor.
+std::vector<BodyBox> body_boxes(const SpriteData& data, std::span<const OpaqueBox> boxes) {
+  std::vector<BodyBox> bodies;
+  for (std::uint16_t tag = 0; tag < data.tags.size() && !boxes.empty(); ++tag) {
+    std::array<std::vector<float>, 4> ends;
+    bool has = false;
+    for (std::size_t i = 0; i < data.samples.size(); ++i) {
+      const Sample& s = data.samples[i];
+      if (s.kept == 0 || s.tag != tag) continue;
+      has = true;
+      const OpaqueBox& box = boxes[i];
+      if (box.right == 0) continue;
+      ends[0].push_back(static_cast<float>(box.left) - s.anchor.x);
+      ends[1].push_back(static_cast<float>(box.top) - s.anchor.y);
+      ends[2].push_back(static_cast<float>(box.right) - s.anchor.x);
+      ends[3].push_back(static_cast<float>(box.bottom) - s.anchor.y);
+    }
+    if (!has) continue;
+    const auto end = [&](std::size_t side, std::size_t percent) {
+      std::vector<float>& values = ends[side];
+      if (values.empty()) return 0.0f;
+      std::sort(values.begin(), values.end());
+      return values[(values.size() - 1) * percent / 100];
+    };
+    bodies.push_back({tag, end(0, 5), end(1, 5), end(2, 95), end(3, 95)});
+  }
+  return bodies;
+}
+
+// What the cast says happens at a film frame: at the sample that is shown then, and its mirror.
+void add_events(const Json& cast, const std::vector<SampleRow>& rows, SpriteData& data) {
+  for (const Json& clip : cast.is_array() ? cast : Json::array()) {
+    if (!clip.contains("events")) continue;
+    const std::string file = clip.value("file", "");
+    const int first = clip["range"][0], last = clip["range"][1];
+    for (const Json& event : clip["events"]) {
+      const int frame = event["frame"];
+      const std::string name = event["name"];
+      std::int64_t shown = -1;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const SampleRow& row = rows[i];
+        if (row.mirror_of >= 0 || row.source != file || row.frame < first || row.frame > last ||
+            row.frame > frame)
+          continue;
+        if (shown < 0 || row.frame >= rows[static_cast<std::size_t>(shown)].frame)
+          shown = static_cast<std::int64_t>(i);
+      }
+      if (shown < 0) continue;
+      const auto known = std::find(data.event_names.begin(), data.event_names.end(), name);
+      const auto index = static_cast<std::uint32_t>(known - data.event_names.begin());
+      if (known == data.event_names.end()) data.event_names.push_back(name);
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        if (static_cast<std::int64_t>(i) == shown || rows[i].mirror_of == shown)
+          data.events.push_back({static_cast<std::uint32_t>(i), index});
+    }
+  }
+  std::sort(data.events.begin(), data.events.end());
+  data.events.erase(std::unique(data.events.begin(), data.events.end()), data.events.end());
 }
 
 Json direction_json(const SpriteData& data, const DirectionReport& report) {
@@ -78,11 +141,35 @@ Json direction_json(const SpriteData& data, const DirectionReport& report) {
   return entry;
 }
 
+// The way to every tag of a cast. The pictures price what no transition leads to.
+Result<void> add_actions(StageRun& run, const TransitionFile& file, SpriteData& data) {
+  const ActionConfig config{.tau = run.settings.action_tau};
+  if (data.tags.size() == 1 && data.tags.front().empty()) return {};
+  if (!run.sprites) {
+    auto loaded = load_sprites(run.project);
+    if (!loaded) return loaded.error();
+    run.sprites = std::move(*loaded);
+  }
+  const auto classifier = run.project.classifier();
+  if (!classifier) return classifier.error();
+  data.action_tau = static_cast<float>(config.tau);
+  data.action_horizon = static_cast<std::uint32_t>(config.horizon);
+  for (std::uint16_t tag = 0; tag < data.tags.size(); ++tag) {
+    const auto firsts = first_samples(data.samples, tag);
+    if (data.tags[tag].empty() || firsts.empty()) continue;
+    const auto cuts = find_cuts(run.sprites->features, *classifier, data.samples, firsts);
+    auto table = solve_action(file.costs, data.samples, tag, cuts, config);
+    if (!table) return table.error();
+    data.actions.push_back(std::move(*table));
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<SampleRow>& rows,
                                     const TransitionFile& file, const ValueFile& values,
-                                    std::span<const int> body_sides) {
+                                    std::span<const OpaqueBox> boxes) {
   const CostTable& costs = file.costs;
   SpriteData data;
   data.name = fs::path(film.name).stem().string();
@@ -100,7 +187,8 @@ Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<Sam
   data.start_sample = static_cast<std::uint32_t>(first - costs.kept.begin());
   data.row_start = costs.row_start;
   data.transitions = costs.transitions;
-  data.body_length = median_side(data.samples, body_sides);
+  data.body_length = median_side(data.samples, boxes);
+  data.bodies = body_boxes(data, boxes);
   for (const Solution& solution : values.modes) data.modes.push_back(solution.mode);
   return data;
 }
@@ -155,11 +243,14 @@ Result<Json> write_pack(StageRun& run) {
 
   PictureReader reader(run.project, *rows);
   Result<void> state;
-  const std::vector<int> sides =
-      run.sprites ? run.sprites->body_sides : measure_bodies(reader, rows->size(), state);
+  const std::vector<OpaqueBox> boxes =
+      run.sprites ? run.sprites->boxes : measure_bodies(reader, rows->size(), state);
   if (!state) return state.error();
-  auto data = make_sprite_data(*film, *rows, *file, *values, sides);
+  auto data = make_sprite_data(*film, *rows, *file, *values, boxes);
   if (!data) return data.error();
+  if (auto added = add_actions(run, *file, *data); !added) return added.error();
+  if (const Json* made = run.project.record("segment"))
+    add_events(made->value("result", Json::object()).value("cast", Json()), *rows, *data);
 
   const auto trial = make_sprite(*data);
   if (!trial) return trial.error();

@@ -15,16 +15,17 @@
 #include <vector>
 
 #include "control/response.h"
+#include "tool/pictures.h"
 #include "tool/project.h"
 #include "vsprite/sprite.h"
 
 namespace vsprite {
 
-/// `body_sides`: (N) px, longer side of each picture's alpha >= 128 box.
+/// `boxes`: (N) of each picture; without them the body length is 1 and there are no body boxes.
 /// Errors: BadContent (no sample was kept).
 Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<SampleRow>& rows,
                                     const TransitionFile& file, const ValueFile& values,
-                                    std::span<const int> body_sides);
+                                    std::span<const OpaqueBox> boxes);
 
 using DirectionReports = std::array<DirectionReport, kCompassCount>;
 

@@ -247,6 +247,13 @@ Result<void> write_pictures(StageRun& run, const CastRows& cast) {
 
 double frames_a_second(Rate rate) { return static_cast<double>(rate.numerator) / rate.denominator; }
 
+Json events_json(const CastClip& clip) {
+  Json list = Json::array();
+  for (const CastEvent& event : clip.events)
+    list.push_back({{"frame", event.frame}, {"name", event.name}});
+  return list;
+}
+
 Json member_json(const Member& member, std::size_t index, Rate rate) {
   Json entry = {{"file", member.clip->file},
                 {"tag", member.clip->tag},
@@ -258,6 +265,10 @@ Json member_json(const Member& member, std::size_t index, Rate rate) {
                 {"color", member.matching.gain}};
   entry["fps"] = {frames_a_second(member.rate), frames_a_second(rate)};
   if (member.clip->velocity) entry["velocity"] = *member.clip->velocity;
+  if (!member.clip->events.empty()) {
+    entry["range"] = {member.clip->first, member.clip->last};
+    entry["events"] = events_json(*member.clip);
+  }
   return entry;
 }
 
@@ -303,6 +314,7 @@ Result<StageKey> cast_key(StageRun& run) {
     if (!clip.matte.empty()) entry["matte"] = true;
     const Settings own = settings_of(run.settings, clip);
     if (is_picture_source(clip.path)) entry["fps"] = own.fps;
+    if (!clip.events.empty()) entry["events"] = events_json(clip);
     key.settings["cast"].push_back(std::move(entry));
     const auto sum = hash_source(source_of(own, clip.path));
     if (!sum) return sum.error();

@@ -21,8 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostClips = 1000, kLongestTag = 64;
+constexpr std::size_t kMostClips = 1000, kLongestTag = 64, kMostEvents = 100000;
 constexpr double kFastest = 1e6;
+
+bool fits_tag(const std::string& tag) {
+  return tag.size() <= kLongestTag && std::all_of(tag.begin(), tag.end(), [](unsigned char c) {
+           return c > 0x20 && c != 0x7f && c != '"' && c != ',';
+         });
+}
 
 /// One table of the file; the first fault that it meets is the one that is told.
 class Table {
@@ -77,6 +83,25 @@ class Table {
     if (!fits) due(*node, name, what);
     return true;
   }
+  /// Tables of a frame within first..last and a name.
+  void events(const char* name, int first, int last, std::vector<CastEvent>& values) {
+    const toml::node* node = table_.get(name);
+    if (!node) return;
+    const toml::array* array = node->as_array();
+    bool fits = array != nullptr && array->size() <= kMostEvents;
+    for (std::size_t k = 0; fits && k < array->size(); ++k) {
+      const toml::table* entry = array->get(k)->as_table();
+      const auto frame = entry ? (*entry)["frame"].value_exact<std::int64_t>() : std::nullopt;
+      const auto text = entry ? (*entry)["name"].value_exact<std::string>() : std::nullopt;
+      fits = frame && text && entry->size() == 2 && *frame >= first && *frame <= last &&
+             !text->empty() && fits_tag(*text);
+      if (fits) values.push_back({static_cast<int>(*frame), *text});
+    }
+    if (!fits)
+      due(*node, name,
+          "a list of frames of the clip, each with a name without spaces, such as [{ frame = 31, "
+          "name = \"step\" }],");
+  }
   void due(const toml::node& node, const char* name, const std::string& what) {
     fail(node.source(), std::string(name) + ": " + what + " is due");
   }
@@ -108,12 +133,6 @@ void check_setting(Table& table, const char* name, const std::string& value) {
     table.fail(name, set.error().message);
 }
 
-bool fits_tag(const std::string& tag) {
-  return tag.size() <= kLongestTag && std::all_of(tag.begin(), tag.end(), [](unsigned char c) {
-           return c > 0x20 && c != 0x7f && c != '"' && c != ',';
-         });
-}
-
 CastClip read_clip(Table& table, const fs::path& folder, bool match) {
   CastClip clip;
   clip.match = match;
@@ -138,6 +157,7 @@ CastClip read_clip(Table& table, const fs::path& folder, bool match) {
       table.fail("frames", "frames: the last, " + std::to_string(clip.last) +
                                ", comes before the first, " + std::to_string(clip.first));
   }
+  table.events("events", clip.first, clip.last, clip.events);
   if (clip.file.empty()) table.fail("file", "a clip without a file: `file = \"walk.mp4\"` is due");
   if (is_cast_file(clip.file))
     table.fail("file", "file: a film is due, " + clip.file + " is a cast");
@@ -179,9 +199,9 @@ Result<std::vector<CastClip>> parse_cast(const std::string& text, const std::str
   if (!head.problem().empty()) return Error{ErrorCode::BadContent, head.problem()};
   std::vector<CastClip> clips;
   for (const toml::node& node : *list) {
-    Table table(
-        *node.as_table(), path,
-        {"file", "frames", "tag", "key", "subject", "mirror", "velocity", "match", "matte", "fps"});
+    Table table(*node.as_table(), path,
+                {"file", "frames", "tag", "key", "subject", "mirror", "velocity", "match", "matte",
+                 "fps", "events"});
     clips.push_back(read_clip(table, fs::path(path).parent_path(), match));
     if (!table.problem().empty()) return Error{ErrorCode::BadContent, table.problem()};
     std::error_code error;

@@ -16,7 +16,8 @@
 //     key = "#20c040"           # its own background, as --key says it
 //     mirror = true             # also the other way round
 //     velocity = [140, 0]       # of a subject that walks in place: px/s of its film, x right, y
-//     down match = false             # this one as it was filmed
+//     down events = [{ frame = 31, name = "step" }]   # what a game hears of (vsprite/events.h)
+//     match = false             # this one as it was filmed
 #pragma once
 
 #include <array>
@@ -28,6 +29,12 @@
 #include "vsprite/result.h"
 
 namespace vsprite {
+
+/// What happens at a film frame of a clip.
+struct CastEvent {
+  int frame = 0;
+  std::string name;
+};
 
 struct CastClip {
   std::string file;                               ///< as the cast names it
@@ -42,6 +49,7 @@ struct CastClip {
   std::optional<bool> mirror;                     ///< empty: the setting
   std::optional<std::array<double, 2>> velocity;  ///< px/s of its film; empty: as it moved
   bool match = true;
+  std::vector<CastEvent> events;
 };
 
 /// True where `path` ends in `.toml`.

@@ -66,18 +66,18 @@ Result<Image> PictureReader::picture(int sample) {
   return std::move(batch_[static_cast<std::size_t>(sample - first_)]);
 }
 
-int body_side(const Image& picture) noexcept {
-  int left = picture.width, top = picture.height, right = -1, bottom = -1;
+OpaqueBox opaque_box(const Image& picture) noexcept {
+  OpaqueBox box{picture.width, picture.height, 0, 0};
   for (int y = 0; y < picture.height; ++y) {
     const std::uint8_t* row =
         picture.rgba.data() + static_cast<std::ptrdiff_t>(y) * picture.width * 4;
     for (int x = 0; x < picture.width; ++x) {
       if (row[4 * x + 3] < 128) continue;
-      left = std::min(left, x), right = std::max(right, x);
-      top = std::min(top, y), bottom = std::max(bottom, y);
+      box.left = std::min(box.left, x), box.right = std::max(box.right, x + 1);
+      box.top = std::min(box.top, y), box.bottom = std::max(box.bottom, y + 1);
     }
   }
-  return right < 0 ? 0 : std::max(right - left, bottom - top) + 1;
+  return box.right == 0 ? OpaqueBox{} : box;
 }
 
 FeatureScale trained_scale(const Project& project) {
@@ -104,7 +104,7 @@ Result<LoadedSprites> load_sprites(const Project& project) {
       fault = picture.error();  // the rest is blank and thrown away
       picture = Image{1, 1, {0, 0, 0, 0}};
     }
-    loaded.body_sides.push_back(body_side(*picture));
+    loaded.boxes.push_back(opaque_box(*picture));
     return std::move(*picture);
   };
   loaded.features = make_feature_set(*rows, film->fps(), FeatureSet{}.grid, next);

@@ -4,6 +4,7 @@
 // tool/pictures.h - the sprites of a work folder, read ahead by all threads, handed out in order.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -37,13 +38,17 @@ class PictureReader {
 /// Errors: CorruptData (missing, damaged, or of another size than its row says).
 Result<Image> read_sprite(const Project& project, const SampleRow& row);
 
-/// The longer side of the box of pixels with alpha >= 128; 0 if there is none.
-int body_side(const Image& picture) noexcept;
+/// The pixels with alpha >= 128 lie in columns left..right - 1 and rows top..bottom - 1.
+struct OpaqueBox {
+  int left = 0, top = 0, right = 0, bottom = 0;  ///< all 0 if there is none
+  int longer_side() const noexcept { return std::max(right - left, bottom - top); }
+};
+OpaqueBox opaque_box(const Image& picture) noexcept;
 
 /// What train, transitions and pack need of the pictures, read once.
 struct LoadedSprites {
   FeatureSet features;
-  std::vector<int> body_sides;  ///< (N) px
+  std::vector<OpaqueBox> boxes;  ///< (N) px
 };
 Result<LoadedSprites> load_sprites(const Project& project);
 

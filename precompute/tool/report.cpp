@@ -473,6 +473,58 @@ std::string bench_text(const BenchResult& result, double fps) {
   return out;
 }
 
+std::string actions_text(const std::vector<ActionReport>& reports) {
+  if (reports.empty()) return {};
+  std::string out =
+      "\naction          within  frames to it: median  95 %  most   its jumps: sum  dearest  95 %  "
+      " "
+      "beyond the threshold\n";
+  for (const ActionReport& r : reports) {
+    char line[200];
+    std::snprintf(
+        line, sizeof line, "%-16s %5s %21.0f %5.0f %5.0f %17.2f %8.2f %5.2f %10.0f %% of %llu%s\n",
+        r.tag.c_str(), r.within < 0 ? "none" : std::to_string(r.within).c_str(), r.frames_median,
+        r.frames_p95, r.frames_max, r.cost_mean, r.worst_mean, r.worst_p95, 100 * r.cut_share,
+        static_cast<unsigned long long>(r.states), r.late > 0 ? ", some LATE" : "");
+    out += line;
+  }
+  return out;
+}
+
+Json actions_json(const std::vector<ActionReport>& reports) {
+  Json list = Json::array();
+  for (const ActionReport& r : reports) {
+    Json entry = {{"tag", r.tag}, {"within", nullptr}, {"states", r.states}, {"late", r.late}};
+    if (r.within >= 0) entry["within"] = r.within;
+    entry["frames"] = {{"median", r.frames_median}, {"p95", r.frames_p95}, {"max", r.frames_max}};
+    entry["transition_cost"] = {{"mean", r.cost_mean}, {"p95", r.cost_p95}, {"max", r.cost_max}};
+    entry["dearest_jump"] = {{"mean", r.worst_mean}, {"p95", r.worst_p95}};
+    entry["beyond_threshold"] = r.cut_share;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+std::string follow_text(const FollowReport& r) {
+  if (r.ticks == 0) return "\nmoved by the game: nothing in it moves\n";
+  return "\nmoved by the game: the feet slide by " + fixed_text(100 * r.slip_median, 1) +
+         " % of the speed (median; 95 %: " + fixed_text(100 * r.slip_p95, 0) +
+         "), at most a tenth in " + fixed_text(100 * r.within_tenth, 0) + " % of " +
+         std::to_string(r.ticks) + " ticks; drawn " + fixed_text(r.trail_median, 2) +
+         " body lengths from where the game has it (95 %: " + fixed_text(r.trail_p95, 2) +
+         "); transition cost mean " + fixed_text(r.cost_mean, 3) + ", 99 % " +
+         fixed_text(r.cost_p99, 2) + ", " + fixed_text(r.jumps_per_second, 1) + " jumps a second\n";
+}
+
+Json follow_json(const FollowReport& r) {
+  return {{"ticks", r.ticks},
+          {"slip", {{"median", r.slip_median}, {"p95", r.slip_p95}}},
+          {"within_tenth", r.within_tenth},
+          {"trail_body", {{"median", r.trail_median}, {"p95", r.trail_p95}}},
+          {"transition_cost", {{"mean", r.cost_mean}, {"p99", r.cost_p99}}},
+          {"jumps_per_second", r.jumps_per_second}};
+}
+
 std::string trace_csv(const std::vector<TraceRow>& rows) {
   std::string out = "frame,sample,x,y,direction,table,cost\n";
   for (const TraceRow& row : rows)

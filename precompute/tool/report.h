@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "control/action_bench.h"
 #include "control/bench.h"
+#include "control/follow_bench.h"
 #include "control/response.h"
 #include "tool/stages.h"
 #include "vsprite/pack.h"
@@ -27,6 +29,10 @@ std::string steer_text(const SteerReport& report, double fps);
 Json steer_json(const SteerReport& report);
 std::string bench_text(const BenchResult& result, double fps);
 Json bench_json(const BenchResult& result);
+std::string actions_text(const std::vector<ActionReport>& reports);
+Json actions_json(const std::vector<ActionReport>& reports);
+std::string follow_text(const FollowReport& report);
+Json follow_json(const FollowReport& report);
 std::string trace_csv(const std::vector<TraceRow>& rows);
 
 /// "8.2 MB", "912 bytes".

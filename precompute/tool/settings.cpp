@@ -243,6 +243,8 @@ void add_stage_options(Row& t) {
          "mode responsive: the same once it goes that way", kSolve);
   t.real("exit", "DEG", &Settings::exit_angle, 1, 90, false,
          "mode responsive: a sample so near the command has turned, degrees", kSolve);
+  t.real("action-tau", "T", &Settings::action_tau, 0.001, 100, false,
+         "casts: price of a tick on the way to a tag, in transition costs", " pack build play ");
   t.real("change-rate", "RATE", &Settings::change_rate, 0, 10, false,
          "mode responsive: changes of command to expect, a second; 0 = expect none", kSolve);
   t.real("speed-weight", "RAD", &Settings::speed_weight, 0, 100, false,
@@ -271,9 +273,10 @@ void add_label_options(Row& t) {
 }
 
 void add_use_options(Row& t) {
-  t.text("keys", "SCRIPT", &Settings::keys,
-         "held directions by seconds: \"0.0 right; 2.5 right+up\", or a file of them",
-         " steer play ");
+  t.text(
+      "keys", "SCRIPT", &Settings::keys,
+      "held directions and actions by seconds: \"0.0 right; 2.5 play jump 4\", or a file of them",
+      " steer play ");
   t.whole("frames", "N", &Settings::frames, 0, 1000000000,
           "ticks to run; 0 = 12 s (steer), for ever (play, label)", " steer play label ");
   t.text("mode", "MODE", &Settings::mode,
@@ -284,8 +287,13 @@ void add_use_options(Row& t) {
          "all modes over a grid of settings, ten random runs each; -o FILE.svg draws the curves",
          " steer ");
   t.flag("headless", &Settings::headless, "no window: play the keys and end", " play label ");
-  t.text("record", "FILE", &Settings::record, "film of the run (.mp4) or last picture (.png)",
-         " play label ");
+  t.text(
+      "record", "FILE", &Settings::record,
+      "film of the run (.mp4) or last picture (.png); steer: the run itself, for --replay (.vsr)",
+      " play label steer ");
+  t.text("replay", "FILE", &Settings::replay,
+         "makes a recorded run again; exit 3 at the first tick that comes out otherwise",
+         " steer ");
   t.text("what", "WHAT", &Settings::what, "which numbers", " dump ",
          "samples|labels|features|distances|transitions|values");
   t.text("format", "FORMAT", &Settings::format, "how they are written", " dump ", "csv|npy");

@@ -67,6 +67,7 @@ struct Settings {
   double skip_price = 1;
   double bend = 15;
   double exit_angle = 25;
+  double action_tau = 0.05;  ///< price of a tick on the way to a tag
 
   // Looking before building.
   int preview = 0;  ///< frames on the contact sheet; 0: none is asked for
@@ -79,6 +80,7 @@ struct Settings {
   std::string trace;
   bool bench = false;
   std::string record;
+  std::string replay;
   bool headless = false;
 
   // Labelling.

@@ -251,8 +251,15 @@ Result<StageKey> pack_key(StageRun& run) {
   if (!samples) return samples.error();
   const auto present = run.project.values(samples->size());
   if (!present) return present.error();
-  return key_of(run, "pack", {{"seed", run.settings.seed}},
-                {"sprites", "transitions.bin", "values.bin"});
+  const Json* made = run.project.record("segment");
+  const Json cast = made ? made->value("result", Json::object()).value("cast", Json()) : Json();
+  Json events = Json::array();
+  for (const Json& clip : cast.is_array() ? cast : Json::array())
+    if (clip.contains("events")) events.push_back(clip["events"]);
+  return key_of(
+      run, "pack",
+      {{"events", events}, {"seed", run.settings.seed}, {"action-tau", run.settings.action_tau}},
+      {"sprites", "transitions.bin", "values.bin"});
 }
 
 Result<std::string> pack_output(StageRun& run) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "vsprite/action.h"
 #include "vsprite/record.h"
 #include "vsprite/session.h"
 #include "window/play_view.h"
@@ -63,6 +64,9 @@ Result<int> find_mode(const Sprite& sprite, const std::string& name) {
                "mode " + name + ": no such mode in this pack, it has " + known};
 }
 
+/// A key's action shows within a quarter of a second or so.
+constexpr int kActionTicks = 8;
+
 /// So that a body takes about a quarter of the window's height, in steps that keep pixels even.
 float fitting_zoom(const Sprite& sprite, int height) {
   const float body = std::max(sprite.data().body_length, 8.0f);
@@ -72,8 +76,9 @@ float fitting_zoom(const Sprite& sprite, int height) {
 
 class Play {
  public:
-  Play(const Sprite& sprite, Session& session, const PlayOptions& options, int mode)
-      : sprite_(sprite), session_(session), frames_(sprite) {
+  Play(const Sprite& sprite, Session& session, const PlayOptions& options, int mode,
+       KeyScript script)
+      : sprite_(sprite), session_(session), frames_(sprite), script_(std::move(script)) {
     state_.actor = make_actor(sprite, {}, options.seed, mode);
     state_.zoom = fitting_zoom(sprite, options.height);
     state_.overlay = options.overlay;
@@ -108,6 +113,7 @@ class Play {
   const Sprite& sprite_;
   Session& session_;
   FrameCache frames_;
+  KeyScript script_;  // its actions; the session steers by it
   PlayState state_;
   bool still_ = false;
   double last_seconds_ = 0;
@@ -123,6 +129,11 @@ void Play::read_keys() {
     if (key == 'b') state_.ground = (state_.ground + 1) % window::kGroundCount;
     if (key == '+' || key == '=') state_.zoom = std::min(state_.zoom * 1.25f, 8.0f);
     if (key == '-') state_.zoom = std::max(state_.zoom / 1.25f, 0.1f);
+    const int action = key - '1';  // the actions of a cast, in the order of its tags
+    if (action >= 0 && action < std::min(9, static_cast<int>(sprite_.actions().size())))
+      play(sprite_, state_.actor, action, kActionTicks);
+    if (key == 'r') release(sprite_, state_.actor, kActionTicks);
+    if (key == 'c') cancel(sprite_, state_.actor);
   }
 }
 
@@ -144,6 +155,7 @@ void Play::command() {
 
 void Play::tick() {
   command();
+  play_script(sprite_, script_, session_.tick(), state_.actor);
   const std::uint32_t before = state_.actor.sample;
   step(sprite_, state_.actor);
   float& cost = state_.costs[state_.cost_head];
@@ -207,6 +219,10 @@ std::string describe_directions(const Sprite& sprite, const std::string& mode) {
 Result<void> play_window(const Sprite& sprite, const PlayOptions& options) {
   const Result<int> mode = find_mode(sprite, options.mode);
   if (!mode) return mode.error();
+  Result<KeyScript> script =
+      options.keys.empty() ? KeyScript{} : load_key_script(options.keys, sprite.fps());
+  if (!script) return script.error();
+  if (auto known = check_key_script(sprite, *script); !known) return known.error();
   const std::string name = options.title.empty() ? sprite.data().name : options.title;
   Result<Session> session = Session::open({.title = "vsprite play " + name,
                                            .width = options.width,
@@ -220,10 +236,10 @@ Result<void> play_window(const Sprite& sprite, const PlayOptions& options) {
   if (!session) return session.error();
   Result<window::PlayView> view = window::PlayView::make(session->renderer());
   if (!view) return view.error();
-  Play play(sprite, *session, options, *mode);
+  Play run(sprite, *session, options, *mode, std::move(*script));
   while (session->next_frame()) {
-    play.frame();
-    view->draw(*session, sprite, play.frames(), play.state());
+    run.frame();
+    view->draw(*session, sprite, run.frames(), run.state());
     session->show();
   }
   if (!options.screenshot.empty()) {

@@ -8,10 +8,15 @@
 #include <cstdlib>
 #include <new>
 
+#include "support/naive_actions.h"
 #include "support/tiny_sprite.h"
+#include "vsprite/action.h"
 #include "vsprite/actor.h"
 #include "vsprite/compose.h"
+#include "vsprite/events.h"
 #include "vsprite/input.h"
+#include "vsprite/owner.h"
+#include "vsprite/replay.h"
 
 namespace {
 std::atomic<long> allocations{0};
@@ -62,6 +67,23 @@ TEST(Allocation, ATickTakesNoMemory) {
   }
   EXPECT_EQ(allocations, before);
   EXPECT_NE(hash.digest(), 0u);
+}
+
+TEST(Allocation, ActionsEventsAndOwnersTakeNone) {
+  const Sprite sprite = *make_sprite(testing::acting_sprite_data());
+  const KeyScript script =
+      *parse_key_script("0 play jump 4; 1 release 2; 2 hold wave; 3 cancel", 30);
+  const long before = allocations;
+  Actor actor = make_actor(sprite, {}, 0, 1);
+  std::size_t events = 0;
+  for (std::uint64_t tick = 0; tick < 300; ++tick) {
+    play_script(sprite, script, tick, actor);
+    if (tick > 150) follow(sprite, actor, {50, static_cast<float>(tick % 90) - 45});
+    if (tick > 250) own_scaled(actor, {2, 2});
+    step(sprite, actor);
+    events += events_of(sprite, actor).named.size() + hash_states({&actor, 1}) % 2;
+  }
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(KeyScript, NamesTheBadEntry) {
   EXPECT_EQ(
       script.error().message,
       "key script: entry 3 \"2.5 rihgt\": unknown direction \"rihgt\", due one of right, left, "
-      "up, down, a pair such as right+up, none, rest");
+      "up, down, a pair such as right+up, none, rest; or play, hold, queue, release, cancel");
 }
 
 TEST(KeyScript, RefusesTimesThatAreNone) {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace vsprite {
@@ -16,7 +17,7 @@ struct Tables {
   TransitionFile file;
   CostTable& costs = file.costs;
   ValueFile values;
-  std::vector<int> sides{10, 30, 20, 99};
+  std::vector<OpaqueBox> boxes{{0, 0, 10, 4}, {1, 2, 31, 8}, {2, 1, 22, 6}, {0, 0, 99, 9}};
 
   Tables() {
     for (int i = 0; i < 4; ++i) {
@@ -44,7 +45,7 @@ struct Tables {
     values.modes.push_back(std::move(solution));
     file.skip_costs = {0.25f, HUGE_VALF, HUGE_VALF, HUGE_VALF};
   }
-  Result<SpriteData> data() const { return make_sprite_data(film, rows, file, values, sides); }
+  Result<SpriteData> data() const { return make_sprite_data(film, rows, file, values, boxes); }
 };
 
 TEST(BuildPack, LengthsAreInSpritePixels) {
@@ -63,6 +64,26 @@ TEST(BuildPack, LengthsAreInSpritePixels) {
   EXPECT_EQ(sample.step_y, -32801);
   EXPECT_EQ(data->body_length, 20) << "the median over kept samples";
   EXPECT_EQ(data->name, "walk");
+}
+
+TEST(BuildPack, TheBodyEndsWhereNineTenthsOfThePicturesDo) {
+  const Tables tables;
+  const auto data = tables.data();
+  ASSERT_TRUE(data);
+  for (const BodyBox& body : data->bodies) {
+    std::vector<float> left, bottom;
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (data->samples[i].kept == 0 || data->samples[i].tag != body.tag) continue;
+      left.push_back(static_cast<float>(tables.boxes[i].left) - data->samples[i].anchor.x);
+      bottom.push_back(static_cast<float>(tables.boxes[i].bottom) - data->samples[i].anchor.y);
+    }
+    std::sort(left.begin(), left.end());
+    std::sort(bottom.begin(), bottom.end());
+    ASSERT_FALSE(left.empty());
+    EXPECT_EQ(body.left, left[(left.size() - 1) * 5 / 100]);
+    EXPECT_EQ(body.bottom, bottom[(bottom.size() - 1) * 95 / 100]);
+  }
+  EXPECT_FALSE(data->bodies.empty());
 }
 
 TEST(BuildPack, WhatItMakesIsASprite) {

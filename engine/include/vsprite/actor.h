@@ -36,7 +36,7 @@ namespace vsprite {
 struct Actor {
   Position position;                      ///< of the anchor, 1/65536 px, game coordinates
   std::uint64_t tick = 0;                 ///< ticks since make_actor
-  std::uint64_t random = 0;               ///< state of the generator; drives variety only
+  std::uint32_t random = 0;               ///< state of the generator; drives variety only
   std::uint32_t sample = 0;               ///< shown now
   std::uint16_t shown = 0;                ///< ticks that `sample` has been shown, 1..duration
   std::uint8_t mode = 0;                  ///< index into SpriteData::modes
@@ -47,10 +47,20 @@ struct Actor {
   std::uint8_t table = 0;  ///< table that chose `sample`: group * stages + stage
   std::uint8_t jumped =
       0;  ///< 1 if this tick shows a sample that is not its predecessor's successor
-  std::uint8_t skipped = 0;      ///< 1 if that left out one sample of the clip
-  std::uint8_t padding[2] = {};  ///< zero, so that states may be compared as bytes
+  std::uint8_t skipped = 0;   ///< 1 if that left out one sample of the clip
+  std::uint8_t play = 0;      ///< what of `action` is being done (action.h)
+  std::uint8_t owner = 0;     ///< who moves it (owner.h)
+  std::uint16_t action = 0;   ///< played now: 1 + index into Sprite::actions(); 0 it is steered
+  std::uint16_t queued = 0;   ///< played after it, likewise
+  std::uint16_t due = 0;      ///< ticks until the action has to show; 0 there is no deadline
+  std::uint16_t clock = 0;    ///< of the shown sample, what has passed of a tick, 1/65536
+  std::int16_t offset_x = 0;  ///< of the drawn anchor from `position`, 1/64 px (owner.h)
+  std::int16_t offset_y = 0;
+  std::int32_t drive_x = 0;  ///< as the owner of the position says (owner.h)
+  std::int32_t drive_y = 0;
 };
-static_assert(std::is_trivially_copyable_v<Actor> && sizeof(Actor) == 48);
+static_assert(std::is_trivially_copyable_v<Actor> && sizeof(Actor) == 64);
+static_assert(std::has_unique_object_representations_v<Actor>);  // may be compared as bytes
 
 /// At (x, y), showing the sprite's start sample, direction None.
 Actor make_actor(const Sprite& sprite, Vec2 position = {}, std::uint64_t seed = 0,
@@ -95,7 +105,8 @@ struct StepWish {
 /// One tick, as above. Cost: one row of transitions where a sample ends. Never allocates.
 void step(const Sprite& sprite, Actor& actor, const StepWish& wish) noexcept;
 
-/// Where to draw between two ticks: `fraction` in [0, 1) of a tick after the last step, px.
+/// Where to draw the anchor between two ticks: `fraction` in [0, 1) of a tick after the last step,
+/// px.
 Vec2 draw_position(const Sprite& sprite, const Actor& actor, float fraction) noexcept;
 
 /// T of the jump that brought the shown sample, given the one before; 0 for natural continuation.

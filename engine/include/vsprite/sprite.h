@@ -28,6 +28,7 @@
 #include "vsprite/geometry.h"
 #include "vsprite/image.h"
 #include "vsprite/result.h"
+#include "vsprite/tagged.h"
 
 namespace vsprite {
 
@@ -117,6 +118,13 @@ struct SpriteData {
   std::vector<Transition> transitions;  ///< each row ascending by `to`
   std::vector<ControlMode> modes;       ///< at least one; the first is the default
   std::uint32_t start_sample = 0;       ///< where every run starts: the first kept sample
+  // Of a sprite with tags (tagged.h); empty in others.
+  float action_tau = 0;              ///< price of a tick, > 0
+  std::uint32_t action_horizon = 0;  ///< longest deadline with a table of its own, ticks
+  std::vector<ActionTable> actions;  ///< ascending by tag
+  std::vector<std::string> event_names;
+  std::vector<SampleEvent> events;  ///< ascending
+  std::vector<BodyBox> bodies;      ///< ascending by tag; every tag that a sample has, or none
 };
 
 /// A loaded pack: the data above, and the pictures, decoded on demand from the file, which
@@ -139,6 +147,12 @@ class Sprite {
   bool is_skip(std::uint32_t from, std::uint32_t to) const noexcept;
   /// T of the jump from -> to; 0 for the natural successor, infinity if there is none.
   float transition_cost(std::uint32_t from, std::uint32_t to) const noexcept;
+  /// Of the pack that it was loaded from: the sum over all its sections' sums; 0 if there is none.
+  std::uint64_t identity() const noexcept;
+  /// What a game may play by name, in the order of the tags.
+  std::span<const Action> actions() const noexcept;
+  /// True if `sample` is one at which its tag begins: kept, and its predecessor is not of it.
+  bool is_first(std::uint32_t sample) const noexcept;
   /// Index into data().modes, or -1.
   int find_mode(std::string_view name) const noexcept;
 

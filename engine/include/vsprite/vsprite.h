@@ -4,13 +4,18 @@
 // vsprite/vsprite.h - everything in the engine, and its version.
 #pragma once
 
+#include "vsprite/action.h"
 #include "vsprite/actor.h"
+#include "vsprite/body.h"
 #include "vsprite/compose.h"
+#include "vsprite/events.h"
 #include "vsprite/geometry.h"
 #include "vsprite/image.h"
 #include "vsprite/input.h"
+#include "vsprite/owner.h"
 #include "vsprite/pack.h"
 #include "vsprite/policy.h"
+#include "vsprite/replay.h"
 #include "vsprite/result.h"
 #include "vsprite/sprite.h"
 #include "vsprite/stream.h"

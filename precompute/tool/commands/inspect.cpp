@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: MIT
 //
 // info, validate and steer: what a pack holds, whether it is whole, how it answers.
+#include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "control/response.h"
 #include "tool/commands/verbs.h"
 #include "tool/report.h"
+#include "vsprite/actor.h"
 #include "vsprite/pack.h"
+#include "vsprite/replay.h"
 
 namespace vsprite {
 namespace {
@@ -17,6 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr double kDefaultSeconds = 12;
 constexpr std::uint64_t kBenchSeeds = 10;
+constexpr std::uint64_t kFollowTicks = 50000;
 
 Result<Sprite> load_operand(const Settings& settings) {
   if (settings.film.empty()) return Error{ErrorCode::BadSetting, "a pack is due: PACK.vsp"};
@@ -95,8 +99,58 @@ Result<int> run_bench(const Settings& settings, const Sprite& sprite, Console& c
     const std::string svg = curves_svg(*result, sprite.data().name);
     if (auto wrote = write_file(settings.output, svg); !wrote) return wrote.error();
   }
-  console.text(bench_text(*result, sprite.fps()));
-  console.document(bench_json(*result));
+  const std::vector<ActionReport> actions = measure_actions(sprite);
+  const FollowReport follow = measure_following(sprite, 0, kFollowTicks, settings.seed);
+  Json document = bench_json(*result);
+  if (!actions.empty()) document["actions"] = actions_json(actions);
+  document["follow"] = follow_json(follow);
+  console.text(bench_text(*result, sprite.fps()) + follow_text(follow) + actions_text(actions));
+  console.document(document);
+  console.next("vsprite play " + shell_word(settings.film));
+  return 0;
+}
+
+// Makes the run of a script once more, noting what is done to the actor.
+Result<void> record_run(const Settings& settings, const Sprite& sprite, int mode,
+                        const KeyScript& script, std::uint64_t frames) {
+  using Kind = ReplayCommand::Kind;
+  std::array<Actor, 1> actor{make_actor(sprite, {}, settings.seed, mode)};
+  ReplayRecorder recorder(sprite, actor);
+  for (std::uint64_t tick = 0; tick < frames; ++tick) {
+    const Direction wanted = script.at(tick);
+    if (wanted != actor[0].direction)
+      recorder.command(sprite, actor, {.kind = Kind::Direction, .direction = wanted});
+    for (const ReplayCommand& command : commands_at(sprite, script, tick))
+      recorder.command(sprite, actor, command);
+    step(sprite, actor);
+    recorder.tick(actor);
+  }
+  return save_replay(settings.record, recorder.replay());
+}
+
+Result<int> run_again(const Settings& settings, const Sprite& sprite, Console& console) {
+  const auto replay = load_replay(settings.replay, sprite);
+  if (!replay) return replay.error();
+  std::vector<Actor> actors;
+  StateHash hash;
+  const auto divergence = run_replay(sprite, *replay, actors, &hash);
+  const bool same_pack = replay->sprite == sprite.identity();
+  Json document = {{"frames", replay->hashes.size()},     {"actors", actors.size()},
+                   {"commands", replay->commands.size()}, {"same_pack", same_pack},
+                   {"states_hash", hex64(hash.digest())}, {"divergence", nullptr}};
+  if (divergence)
+    document["divergence"] = {{"tick", divergence->tick},
+                              {"recorded", hex64(divergence->recorded)},
+                              {"found", hex64(divergence->found)}};
+  console.document(document);
+  if (divergence)
+    return Error{ErrorCode::BadContent,
+                 settings.replay + ": goes another way at tick " +
+                     std::to_string(divergence->tick) + ": states " + hex64(divergence->found) +
+                     ", recorded " + hex64(divergence->recorded) +
+                     (same_pack ? std::string() : ": it was recorded with another pack")};
+  console.text("  " + std::to_string(replay->hashes.size()) + " frames as recorded, states " +
+               hex64(hash.digest()) + "\n");
   console.next("vsprite play " + shell_word(settings.film));
   return 0;
 }
@@ -107,6 +161,7 @@ Result<int> run_steer(const Settings& settings, Console& console) {
   const auto sprite = load_operand(settings);
   if (!sprite) return sprite.error();
   if (settings.bench) return run_bench(settings, *sprite, console);
+  if (!settings.replay.empty()) return run_again(settings, *sprite, console);
   const int mode = settings.mode.empty() ? 0 : sprite->find_mode(settings.mode);
   if (mode < 0)
     return Error{ErrorCode::BadContent, settings.film + ": it holds no mode `" + settings.mode +
@@ -116,6 +171,10 @@ Result<int> run_steer(const Settings& settings, Console& console) {
                           : static_cast<std::uint64_t>(std::ceil(kDefaultSeconds * sprite->fps()));
   const auto script = script_of(settings, sprite->fps(), frames);
   if (!script) return script.error();
+  if (auto known = check_key_script(*sprite, *script); !known) return known.error();
+  if (!settings.record.empty())
+    if (auto kept = record_run(settings, *sprite, mode, *script, frames); !kept)
+      return kept.error();
   std::vector<TraceRow> trace;
   const SteerReport report = measure_steering(*sprite, mode, *script, frames, settings.seed,
                                               settings.trace.empty() ? nullptr : &trace);
