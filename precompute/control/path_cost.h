@@ -163,15 +163,17 @@ inline Cost PathCost::deviation_cost(std::int32_t x, std::int32_t y, std::uint32
 inline PathEnd PathCost::leave(const PathState& from, PathState& to) const {
   constexpr std::int64_t kEdge = std::int64_t{32000} << 16;
   constexpr double kMost = 1099511627776.0;  // 2^40
-  const Motion m = motions_[from.sample];
-  const PathSegment* s = &segments_[from.segment];
+  const Motion& m = motions_[from.sample];
+  const PathSegment* s = segments_.data() + from.segment;
   std::int64_t x = from.x, y = from.y;
   Cost cost = from.cost;
   double along = 0;
-  for (std::uint32_t tick = 1; tick <= m.duration; ++tick) {
+  for (std::uint32_t tick = 1;; ++tick) {
     x += m.step_x;
     y += m.step_y;
-    if (x > kEdge || x < -kEdge || y > kEdge || y < -kEdge) {
+    // One test for both ends of both axes.
+    const auto from_edge = [](std::int64_t at) { return static_cast<std::uint64_t>(at + kEdge); };
+    if (std::max(from_edge(x), from_edge(y)) > std::uint64_t{2} * kEdge) [[unlikely]] {
       to = from;
       to.cost = cost;
       return PathEnd::Dropped;
@@ -179,35 +181,35 @@ inline PathEnd PathCost::leave(const PathState& from, PathState& to) const {
     const auto at_x = static_cast<double>(x), at_y = static_cast<double>(y);
     double dx = at_x - s->x, dy = at_y - s->y;
     along = dx * s->unit_x + dy * s->unit_y;
-    while (along >= s->length) {
-      if (s == &segments_.back()) {
-        to = from;
-        to.cost = cost;
-        return PathEnd::Arrived;
+    while (along >= s->length) [[unlikely]] {
+        if (s == &segments_.back()) {
+          to = from;
+          to.cost = cost;
+          return PathEnd::Arrived;
+        }
+        ++s;
+        dx = at_x - s->x, dy = at_y - s->y;
+        along = dx * s->unit_x + dy * s->unit_y;
       }
-      ++s;
-      dx = at_x - s->x, dy = at_y - s->y;
-      along = dx * s->unit_x + dy * s->unit_y;
-    }
     const double d = dy * s->unit_x - dx * s->unit_y;
     cost += static_cast<Cost>(std::min(w2_ * d * d + 0.5, kMost)) + tau_;
-    if (tick < m.duration)
-      cost += angle_cost(from.sample, static_cast<std::uint32_t>(s - segments_.data()));
+    if (tick >= m.duration) break;
+    cost += angle_cost(from.sample, static_cast<std::uint32_t>(s - segments_.data()));
   }
   const auto arc =
       static_cast<std::uint32_t>(s->arc + std::max(0.0, along) * (kPathArcUnit / kPathUnit));
   std::int64_t slack = from.slack;
   if (full_slack_ != 0) {
     slack += std::int64_t{arc} - std::int64_t{from.arc} - std::int64_t{least_step_} * m.duration;
-    if (slack > full_slack_) slack = full_slack_;
+    slack = std::min<std::int64_t>(slack, full_slack_);
   }
-  to = {cost,
-        static_cast<std::int32_t>(x),
-        static_cast<std::int32_t>(y),
-        from.sample,
-        static_cast<std::uint32_t>(s - segments_.data()),
-        arc,
-        static_cast<std::int32_t>(std::max<std::int64_t>(slack, 0))};
+  to.cost = cost;
+  to.x = static_cast<std::int32_t>(x);
+  to.y = static_cast<std::int32_t>(y);
+  to.sample = from.sample;
+  to.segment = static_cast<std::uint32_t>(s - segments_.data());
+  to.arc = arc;
+  to.slack = static_cast<std::int32_t>(std::max<std::int64_t>(slack, 0));
   return slack < 0 ? PathEnd::Dropped : PathEnd::OnTheWay;
 }
 

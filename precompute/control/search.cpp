@@ -20,6 +20,7 @@
 #include <bit>
 #include <cstdio>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
 
@@ -35,7 +36,7 @@ constexpr std::size_t kStride = 16;              // of the parents that the gues
 constexpr std::uint32_t kEndOfRow = UINT32_MAX;  // dearer than any successor
 constexpr std::uint64_t kMostSpread = kEndOfRow - 1;
 constexpr std::size_t kRowBudget = std::size_t{1} << 25;   // sorted successors kept
-constexpr std::size_t kNodeBudget = std::size_t{1} << 23;  // back-pointers before a clean-up
+constexpr std::size_t kNodeBudget = std::size_t{1} << 20;  // back-pointers before a clean-up
 constexpr std::uint32_t kNoNode = UINT32_MAX;
 
 int bucket_shift(std::uint64_t limit) {
@@ -46,7 +47,13 @@ int bucket_shift(std::uint64_t limit) {
 // E << 32 | sample, then an end mark.
 class SuccessorRows {
  public:
-  explicit SuccessorRows(const PathCost& path) : path_(&path), rows_(path.direction_count()) {}
+  explicit SuccessorRows(const PathCost& path)
+      : path_(&path), rows_(path.direction_count()), angles_(path.direction_count()) {
+    const auto count = static_cast<std::uint32_t>(path.sprite().samples().size());
+    for (std::uint32_t i = 0; i < count; ++i)
+      longest_ = std::max(longest_, path.sprite().transitions(i).size());
+  }
+  std::size_t longest() const { return longest_; }
 
   const std::uint64_t* find(std::uint32_t sample, std::uint32_t direction) const {
     return rows_[direction].empty() ? nullptr : rows_[direction][sample];
@@ -54,12 +61,17 @@ class SuccessorRows {
   // `segment`: one of that direction.
   const std::uint64_t* make(std::uint32_t sample, std::uint32_t direction, std::uint32_t segment) {
     auto& row = rows_[direction];
-    if (row.empty()) row.assign(path_->sprite().samples().size(), nullptr);
+    auto& angles = angles_[direction];
+    if (row.empty()) {
+      row.assign(path_->sprite().samples().size(), nullptr);
+      angles.resize(row.size());
+      for (std::uint32_t i = 0; i < row.size(); ++i) angles[i] = path_->angle_cost(i, segment);
+    }
     const auto edges = path_->sprite().transitions(sample);
     std::uint64_t* out = take(edges.size() + 1);
     for (std::size_t k = 0; k < edges.size(); ++k) {
-      const std::uint64_t cost = std::uint64_t{PathCost::transition_cost(edges[k].cost)} +
-                                 path_->angle_cost(edges[k].to, segment);
+      const std::uint64_t cost =
+          std::uint64_t{PathCost::transition_cost(edges[k].cost)} + angles[edges[k].to];
       out[k] = std::min<std::uint64_t>(cost, kEndOfRow - 1) << 32 | edges[k].to;
     }
     std::sort(out, out + edges.size());
@@ -73,6 +85,7 @@ class SuccessorRows {
     blocks_.clear();
     left_ = 0;
     for (auto& row : rows_) row = {};
+    for (auto& angles : angles_) angles = {};
   }
 
  private:
@@ -89,19 +102,26 @@ class SuccessorRows {
   }
   const PathCost* path_;
   std::vector<std::vector<const std::uint64_t*>> rows_;  // (direction, sample)
+  std::vector<std::vector<std::uint32_t>> angles_;       // (direction, sample) w1 a
   std::vector<std::unique_ptr<std::uint64_t[]>> blocks_;
   std::uint64_t* next_ = nullptr;
-  std::size_t left_ = 0, used_ = 0;
+  std::size_t left_ = 0, used_ = 0, longest_ = 0;
 };
 
 // How every sequence came about: a tree, children after their parents.
 class History {
  public:
   std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
-  void grow(std::size_t count) { nodes_.resize(nodes_.size() + count); }
-  void set(std::size_t node, std::uint32_t parent, std::uint32_t sample) {
-    nodes_[node].parent = parent;
-    nodes_[node].sample = sample;
+  struct Node {
+    std::uint32_t parent, sample;
+    Node() {}  // every one is set: nothing to clear
+    Node(std::uint32_t from, std::uint32_t shown) : parent(from), sample(shown) {}
+  };
+  explicit History(std::size_t width) { nodes_.reserve(kNodeBudget + width); }
+  // Room for `count` more nodes, all of them to be set; the first.
+  Node* grow(std::size_t count) {
+    nodes_.resize(nodes_.size() + count);
+    return nodes_.data() + nodes_.size() - count;
   }
   bool is_full() const { return nodes_.size() >= budget_; }
   std::vector<std::uint32_t> trace(std::uint32_t node) const {
@@ -115,7 +135,7 @@ class History {
     std::vector<std::uint32_t> renumbered(nodes_.size(), 0);
     for (const std::uint32_t leaf : leaves) renumbered[leaf] = 1;
     for (std::size_t n = nodes_.size(); n-- > 0;)
-      if (renumbered[n] && nodes_[n].parent != kNoNode) renumbered[nodes_[n].parent] = 1;
+      if (nodes_[n].parent != kNoNode) renumbered[nodes_[n].parent] |= renumbered[n];
     std::uint32_t next = 0;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       if (!renumbered[n]) continue;
@@ -130,10 +150,6 @@ class History {
   }
 
  private:
-  struct Node {
-    std::uint32_t parent, sample;
-    Node() {}  // every one is set: nothing to clear
-  };
   std::vector<Node> nodes_;
   std::size_t budget_ = kNodeBudget;
 };
@@ -162,8 +178,10 @@ struct Tile {
   bool has_new = false;  // of its parents, one has no row yet
   std::uint32_t furthest = 0, furthest_segment = 0;
   std::uint64_t evaluated = 0;
-  std::vector<std::uint32_t> costs;  // of successors under the guess, less the tick's least B
-  bool is_whole = true;              // nothing lies beyond the guess
+  std::vector<std::uint32_t> room;    // grows, never shrinks
+  std::span<std::uint32_t> costs;     // of successors under the guess, less the tick's least B
+  std::vector<std::uint32_t> inside;  // those in the bucket of the cut
+  bool is_whole = true;               // nothing lies beyond the guess
   std::array<std::uint32_t, kBuckets> buckets{};
   std::size_t below = 0, equal = 0;  // costs under the cut, at the cut
   std::size_t first = 0, ties = 0;   // where its survivors go; how many at the cut stay
@@ -178,6 +196,7 @@ class Beam {
         width_(static_cast<std::size_t>(config.width)),
         arena_(config.jobs > 0 ? config.jobs : tbb::task_arena::automatic),
         rows_(path),
+        history_(width_),
         pools_(path.longest_duration() + 1) {}
 
   Result<Clip> run();
@@ -193,7 +212,7 @@ class Beam {
   std::uint64_t expect_spread();
   void choose();
   void find_cut(std::uint64_t total, int shift);
-  void emit(Tile& tile);
+  void emit(const Tile& tile, History::Node* nodes);
   void put_back();
   void clean_history();
   void report();
@@ -246,10 +265,10 @@ void Beam::seed() {
       return std::pair(s.state.cost, s.state.sample) > limit;
     });
   }
-  history_.grow(beam_.size());
+  History::Node* nodes = history_.grow(beam_.size());
   for (std::uint32_t n = 0; n < beam_.size(); ++n) {
     beam_[n].node = n;
-    history_.set(n, kNoNode, beam_[n].state.sample);
+    nodes[n] = {kNoNode, beam_[n].state.sample};
   }
   put_back();
 }
@@ -271,36 +290,39 @@ bool Beam::take_tick() {
 void Beam::leave(std::size_t index) {
   Tile& tile = tiles_[index];
   if (tile.store.empty()) tile.store.resize(kTile);
-  std::size_t count = 0;
-  tile.least = tile.arrived = kNoCost;
+  tile.arrived = kNoCost;
   tile.evaluated = 0;
-  tile.has_new = false;
-  tile.furthest = 0;
-  const std::size_t end = std::min(moving_.size(), (index + 1) * kTile);
-  for (std::size_t k = index * kTile; k < end; ++k) {
-    const Sequence& s = moving_[k];
-    Parent& parent = tile.store[count];
-    const PathEnd how = path_.leave(s.state, parent.state);
-    if (how == PathEnd::Dropped || parent.state.cost >= best_) continue;
-    if (how == PathEnd::Arrived) {
-      if (parent.state.cost >= tile.arrived) continue;
-      tile.arrived = parent.state.cost;
+  const Cost dearest = best_;
+  const PathSegment* segments = path_.segments().data();
+  Cost least = kNoCost;
+  bool has_new = false;
+  std::uint32_t furthest = 0, furthest_segment = 0;
+  Parent* parent = tile.store.data();
+  const auto moving = std::span(moving_).subspan(index * kTile);
+  for (const Sequence& s : moving.first(std::min(moving.size(), kTile))) {
+    const PathEnd how = path_.leave(s.state, parent->state);
+    if (how == PathEnd::Dropped || parent->state.cost >= dearest) continue;
+    if (how == PathEnd::Arrived) [[unlikely]] {
+      if (parent->state.cost >= tile.arrived) continue;
+      tile.arrived = parent->state.cost;
       tile.arrived_node = s.node;
       continue;
     }
-    const PathState& at = parent.state;
-    parent.node = s.node;
-    parent.row = rows_.find(at.sample, path_.segments()[at.segment].direction);
-    tile.has_new |= parent.row == nullptr;
-    if (at.arc > tile.furthest) {
-      tile.furthest = at.arc;
-      tile.furthest_segment = at.segment;
-    }
-    parent.rank = parent.state.cost + path_.estimate(parent.state);
-    tile.least = std::min(tile.least, parent.rank);
-    ++count;
+    const PathState& at = parent->state;
+    parent->node = s.node;
+    parent->row = rows_.find(at.sample, segments[at.segment].direction);
+    parent->rank = at.cost + path_.estimate(at);
+    has_new |= parent->row == nullptr;
+    furthest_segment = at.arc > furthest ? at.segment : furthest_segment;
+    furthest = std::max(furthest, at.arc);
+    least = std::min(least, parent->rank);
+    ++parent;
   }
-  tile.parents = {tile.store.data(), count};
+  tile.least = least;
+  tile.has_new = has_new;
+  tile.furthest = furthest;
+  tile.furthest_segment = furthest_segment;
+  tile.parents = {tile.store.data(), parent};
 }
 
 void Beam::make_rows() {
@@ -318,21 +340,30 @@ void Beam::make_rows() {
 
 // All successors that cost at most `limit` more than the tick's least B.
 void Beam::guess(Tile& tile, std::uint32_t limit, int shift) const {
-  tile.costs.clear();
+  constexpr std::size_t kAhead = 12;  // parents whose rows are fetched early
   tile.buckets.fill(0);
   tile.is_whole = true;
-  for (Parent& parent : tile.parents) {
+  std::size_t count = 0;
+  const std::size_t parents = tile.parents.size();
+  for (std::size_t k = 0; k < parents; ++k) {
+    Parent& parent = tile.parents[k];
+    __builtin_prefetch(tile.parents[std::min(k + kAhead, parents - 1)].row);
+    if (tile.room.size() < count + rows_.longest())
+      tile.room.resize(2 * tile.room.size() + rows_.longest() + kTile);
     const std::uint64_t* row = parent.row;
+    std::uint32_t* out = tile.room.data() + count;
     const auto paid = static_cast<std::uint64_t>(parent.rank - least_);
     while (paid + (*row >> 32) <= limit) {
       const auto cost = static_cast<std::uint32_t>(paid + (*row++ >> 32));
-      tile.costs.push_back(cost);
+      *out++ = cost;
       ++tile.buckets[cost >> shift];
     }
     parent.count = static_cast<std::uint32_t>(row - parent.row);
+    count += parent.count;
     tile.is_whole &= *row >> 32 == kEndOfRow;
   }
-  tile.evaluated += tile.costs.size() + tile.parents.size();
+  tile.costs = {tile.room.data(), count};
+  tile.evaluated += count + parents;
 }
 
 // How far above the least B the cut will lie, from every kStride-th parent; rather too far.
@@ -374,6 +405,21 @@ void Beam::choose() {
   }
 }
 
+// The costs of a bucket; few are in it, so sixteen are looked at together.
+void find_inside(std::span<const std::uint32_t> costs, int shift, std::uint32_t bucket,
+                 std::vector<std::uint32_t>& inside) {
+  constexpr std::size_t kRun = 16;
+  inside.clear();
+  for (std::size_t at = 0; at < costs.size(); at += kRun) {
+    const auto run = costs.subspan(at, std::min(kRun, costs.size() - at));
+    std::uint32_t any = 0;
+    for (const std::uint32_t cost : run) any |= cost >> shift == bucket ? 1u : 0u;
+    if (any == 0) continue;
+    for (const std::uint32_t cost : run)
+      if (cost >> shift == bucket) inside.push_back(cost);
+  }
+}
+
 // The width-th smallest cost of all; per tile, how many lie below it and where they go.
 void Beam::find_cut(std::uint64_t total, int shift) {
   std::size_t equals = SIZE_MAX;  // that may stay
@@ -382,14 +428,18 @@ void Beam::find_cut(std::uint64_t total, int shift) {
     std::array<std::uint64_t, kBuckets> sum{};
     for (std::size_t t = 0; t < tile_count_; ++t)
       for (std::size_t b = 0; b < kBuckets; ++b) sum[b] += tiles_[t].buckets[b];
-    std::size_t bucket = 0;
+    std::uint32_t bucket = 0;
     std::uint64_t before = 0;
     while (before + sum[bucket] < width_) before += sum[bucket++];
+    each_tile([&](std::size_t t) {
+      Tile& tile = tiles_[t];
+      find_inside(tile.costs, shift, bucket, tile.inside);
+      tile.below =
+          std::accumulate(tile.buckets.begin(), tile.buckets.begin() + bucket, std::size_t{0});
+    });
     std::vector<std::uint32_t> inside;
-    inside.reserve(sum[bucket]);
     for (std::size_t t = 0; t < tile_count_; ++t)
-      for (const std::uint32_t cost : tiles_[t].costs)
-        if (cost >> shift == bucket) inside.push_back(cost);
+      inside.insert(inside.end(), tiles_[t].inside.begin(), tiles_[t].inside.end());
     const auto last = inside.begin() + static_cast<std::ptrdiff_t>(width_ - before - 1);
     std::nth_element(inside.begin(), last, inside.end());
     cut_ = *last;
@@ -398,17 +448,17 @@ void Beam::find_cut(std::uint64_t total, int shift) {
     equals = static_cast<std::size_t>(width_ - before);
     spread_ = std::max<std::uint64_t>(cut_, 1);
   }
-  each_tile([&](std::size_t t) {
-    Tile& tile = tiles_[t];
-    tile.below = tile.equal = 0;
-    for (const std::uint32_t cost : tile.costs) {
-      tile.below += cost < cut_;
-      tile.equal += cost == cut_;
-    }
-  });
   survivors_ = 0;
   for (std::size_t t = 0; t < tile_count_; ++t) {
     Tile& tile = tiles_[t];
+    if (total > width_) {
+      for (const std::uint32_t cost : tile.inside) tile.below += cost < cut_;
+      tile.equal =
+          static_cast<std::size_t>(std::count(tile.inside.begin(), tile.inside.end(), cut_));
+    } else {
+      tile.below = tile.costs.size();
+      tile.equal = 0;
+    }
     tile.ties = std::min(tile.equal, equals);
     equals -= tile.ties;
     tile.first = survivors_;
@@ -416,24 +466,30 @@ void Beam::find_cut(std::uint64_t total, int shift) {
   }
 }
 
-void Beam::emit(Tile& tile) {
-  std::size_t next = tile.first, ties = tile.ties;
+void Beam::emit(const Tile& tile, History::Node* nodes) {
+  const std::uint32_t cut = cut_;
+  std::size_t ties = tile.ties;
   const std::uint32_t* cost = tile.costs.data();
+  Sequence* child = beam_.data() + tile.first;
+  History::Node* node = nodes + tile.first;
+  auto number = first_node_ + static_cast<std::uint32_t>(tile.first);
   for (const Parent& parent : tile.parents) {
-    for (std::uint32_t k = 0; k < parent.count; ++k, ++cost) {
-      if (*cost > cut_) continue;
-      if (*cost == cut_) {
-        if (ties == 0) continue;
+    const std::uint32_t* const end = cost + parent.count;
+    // A row ascends: what follows the first that is too dear is so too.
+    for (const std::uint64_t* row = parent.row; cost != end && *cost <= cut; ++cost, ++row) {
+      if (*cost == cut) {
+        if (ties == 0) break;
         --ties;
       }
-      Sequence& child = beam_[next];
-      child.state = parent.state;
-      child.state.cost += static_cast<Cost>(parent.row[k] >> 32);
-      child.state.sample = static_cast<std::uint32_t>(parent.row[k]);
-      child.node = first_node_ + static_cast<std::uint32_t>(next);
-      history_.set(child.node, parent.node, child.state.sample);
-      ++next;
+      const auto sample = static_cast<std::uint32_t>(*row);
+      child->state = parent.state;
+      child->state.cost += static_cast<Cost>(*row >> 32);
+      child->state.sample = sample;
+      child->node = number++;
+      *node++ = {parent.node, sample};
+      ++child;
     }
+    cost = end;
   }
 }
 
@@ -502,9 +558,9 @@ Result<Clip> Beam::run() {
     make_rows();
     choose();
     first_node_ = history_.size();
-    history_.grow(survivors_);
+    History::Node* nodes = history_.grow(survivors_);
     beam_.resize(survivors_);
-    each_tile([this](std::size_t t) { emit(tiles_[t]); });
+    each_tile([this, nodes](std::size_t t) { emit(tiles_[t], nodes); });
     put_back();
     if (history_.is_full()) clean_history();
     report();
