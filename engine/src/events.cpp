@@ -101,8 +101,7 @@ Check check_events(const SpriteData& data) {
 TickEvents events_of(const Sprite& sprite, const Actor& actor) noexcept {
   TickEvents now;
   // What the game moves may have passed a sample's first tick within this one.
-  const bool by_game =
-      (actor.owner & kOwnerKind) == static_cast<std::uint8_t>(PositionOwner::Game);
+  const bool by_game = (actor.owner & kOwnerKind) == static_cast<std::uint8_t>(PositionOwner::Game);
   now.frame_shown = (actor.shown == 1 || by_game) && (actor.owner & kOwnerStill) == 0;
   if (!now.frame_shown) return now;
   now.jump_taken = actor.jumped != 0;

@@ -22,7 +22,7 @@ void wrap(Actor& actor, const Renderer& screen, float margin) {
   around(actor.position.y, screen.height());
 }
 
-Result<void> play(const games::Arguments& arguments) {
+Result<void> run_hello(const games::Arguments& arguments) {
   const Result<Sprite> sprite = load_pack(arguments.pack);
   if (!sprite) return sprite.error();
   Result<Session> session = Session::open({.title = "hello",
@@ -54,5 +54,5 @@ Result<void> play(const games::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return games::run(argc, argv, "hello", "build/goldfish.vsp", play);
+  return games::run(argc, argv, "hello", "build/goldfish.vsp", run_hello);
 }

@@ -113,7 +113,7 @@ Camera camera_for(const Renderer& screen) {
           .offset = {(width - scale * kSize.x) / 2, 48 + (height - 48 - scale * kSize.y) / 2}};
 }
 
-Result<void> play(const games::Arguments& arguments) {
+Result<void> run_maze(const games::Arguments& arguments) {
   const Result<Sprite> sprite = load_pack(arguments.pack);
   if (!sprite) return sprite.error();
   Result<std::vector<PackClip>> clips = load_clips(arguments.pack, *sprite);
@@ -167,5 +167,5 @@ Result<void> play(const games::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return games::run(argc, argv, "maze", "build/goldfish.vsp", play);
+  return games::run(argc, argv, "maze", "build/goldfish.vsp", run_maze);
 }

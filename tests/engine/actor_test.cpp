@@ -71,8 +71,7 @@ TEST(Actor, EntersTheSwitchingChainAtKAndLeavesItOneStageASample) {
   Actor actor = make_actor(sprite);
   set_direction(sprite, actor, Direction::Down);
   EXPECT_EQ(actor.stage, 3);
-  for (unsigned due :
-       {3u, 2u, 2u, 1u, 0u, 0u, 0u}) {  // the third tick is the second of a long sample
+  for (unsigned due : {3u, 2u, 2u, 1u, 0u, 0u, 0u}) {  // the third tick is the second of a long sample
     step(sprite, actor);
     EXPECT_EQ(actor.table, 2 * testing::kTinyStages + due) << "tick " << actor.tick;
   }

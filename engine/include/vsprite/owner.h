@@ -14,7 +14,8 @@
 //
 // o being the way from the body to the drawn anchor, d_k what the k-th sample from j on moves, v
 // the body's displacement a tick, r the pace; and go what the mode's own tables expect from there
-// on, between the two headings beside v.
+// on, between the two headings beside v. At the end of the leash and not getting on it follows the
+// mode's tables until it does.
 //
 //     follow(sprite, actor, body.velocity());   // every tick, px/s
 //     step(sprite, actor);                      // position moves by exactly that
