@@ -35,7 +35,6 @@ using Loose = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alia
 constexpr int kMaxSweeps = 10000;         // never met: a policy is improved 10..20 times
 constexpr std::uint32_t kMostSeen = 24;   // choices that are remembered of a row
 constexpr int kRefinePasses = 3;          // sweeps between two evaluations
-constexpr std::size_t kRowsAhead = 2;     // rows that are fetched early
 constexpr std::size_t kFewChanges = 100;  // fewer than a hundredth: worth a full sweep
 constexpr double kTie = 1e-6;  // share of the value within which choices are equally good
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
@@ -132,16 +131,6 @@ VSPRITE_INLINE void read_values(const SweepView& v) {
   }
 }
 
-// Rows are read forwards but visited backwards, which no hardware expects; what is read once is not
-// to displace the costs to go.
-VSPRITE_INLINE void fetch_row(const SweepView& v, std::size_t i) {
-  constexpr std::uint32_t kLine = 16;  // edges
-  for (std::uint32_t e = v.first[i]; e < v.last[i]; e += kLine) {
-    __builtin_prefetch(v.to + e, 0, 0);
-    __builtin_prefetch(v.price + e, 0, 0);
-  }
-}
-
 // Lanes whose choice the minimum of the row beats clearly get a new one. What was chosen is worth
 // less now than when it was evaluated, if anything, so most rows end at the first test.
 VSPRITE_CLONES std::size_t sweep(const SweepView& v, int passes) {
@@ -151,14 +140,8 @@ VSPRITE_CLONES std::size_t sweep(const SweepView& v, int passes) {
       __builtin_convertvector((1 - v.discount) * *v.offset, Vector);  // (1 - b) offset
   std::size_t changed = 0;
   std::fill_n(v.changed, v.count, std::uint8_t{0});
-  std::size_t last_pass = 0;  // changed before it
   for (std::size_t step = 0; step < v.count * static_cast<std::size_t>(passes); ++step) {
     const std::size_t i = v.count - 1 - step % v.count;
-    if (i + 1 == v.count && step > 0) {
-      if (changed == last_pass) break;
-      last_pass = changed;
-    }
-    if (i >= kRowsAhead) fetch_row(v, i - kRowsAhead);
     const std::uint32_t first = v.first[i], last = v.last[i];
     if (first == last) continue;
     RowBest row;
@@ -289,79 +272,73 @@ void remember(Lanes& lanes, std::size_t i, unsigned bits) {
 // i_0 .. i_(m-1)
 //     V(i_0) = sum_q b^q c(i_q) / (1 - b^m),
 // and everything before follows by V(i) = c(i) + b V(to(i)). From the last sample to the first, so
-// that nearly every walk is one step long. What a step needs to know of the next sample lies
-// together: most of the time is spent on fetching it.
+// that nearly every walk is one step long.
 class Evaluation {
  public:
-  explicit Evaluation(Lanes& lanes) : lanes_(lanes), places_(lanes.places) {
-    places_.resize(lanes.to.size());
-    for (std::size_t at = 0; at < places_.size(); ++at)
-      places_[at] = {0, lanes.arrive[at], kUnseen};
-  }
+  explicit Evaluation(Lanes& lanes) : lanes_(lanes), state_(lanes.to.size(), kUnseen) {}
 
   void run() {
     const std::uint32_t* __restrict to = lanes_.to.data();
     const float* __restrict price = lanes_.price.data();
+    const float* __restrict arrive = lanes_.arrive.data();
     const std::uint8_t* __restrict exits = lanes_.exits.empty() ? nullptr : lanes_.exits.data();
-    Place* __restrict places = places_.data();
+    double* __restrict values = lanes_.values.data();
+    std::uint8_t* __restrict state = state_.data();
     const double discount = lanes_.discount;
-    for (std::size_t at = places_.size(); at-- > 0;) {
-      if (places[at].state != kUnseen) continue;
+    for (std::size_t at = lanes_.to.size(); at-- > 0;) {
+      if (state[at] != kUnseen) continue;
       const std::uint32_t j = to[at];
       const std::size_t lane = at % kLanes, next = std::size_t{j} * kLanes + lane;
       const bool is_near = j != kNoSample && (exits == nullptr || (exits[j] >> lane & 1) == 0) &&
-                           places[next].state == kKnown;
+                           state[next] == kKnown;
       if (is_near) {
-        const double cost =
-            static_cast<double>(price[at]) + static_cast<double>(places[next].arrive);
-        places[at].value = cost + discount * places[next].value;
-        places[at].state = kKnown;
+        const double cost = static_cast<double>(price[at]) + static_cast<double>(arrive[next]);
+        values[at] = cost + discount * values[next];
+        state[at] = kKnown;
       } else {
         follow(at);
       }
     }
-    for (std::size_t at = 0; at < places_.size(); ++at) lanes_.values[at] = places[at].value;
   }
 
  private:
-  using Place = Lanes::Place;
-  enum : std::uint32_t { kUnseen, kOnWalk, kKnown };
+  enum : std::uint8_t { kUnseen, kOnWalk, kKnown };
 
   std::size_t target(std::size_t at) const {
     return std::size_t{lanes_.to[at]} * kLanes + at % kLanes;
   }
   double cost(std::size_t at) const {
-    return static_cast<double>(lanes_.price[at]) + static_cast<double>(places_[target(at)].arrive);
+    return static_cast<double>(lanes_.price[at]) + static_cast<double>(lanes_.arrive[target(at)]);
   }
   bool leaves(std::size_t at) const {
     return !lanes_.exits.empty() && (lanes_.exits[lanes_.to[at]] >> at % kLanes & 1) != 0;
   }
   void set(std::size_t at, double behind) {
-    places_[at].value = cost(at) + lanes_.discount * behind;
-    places_[at].state = kKnown;
+    lanes_.values[at] = cost(at) + lanes_.discount * behind;
+    state_[at] = kKnown;
   }
   // True if the value is known now without a walk.
   bool settle(std::size_t at) {
     if (lanes_.to[at] == kNoSample) {
-      places_[at].value = std::numeric_limits<double>::infinity();
-      places_[at].state = kKnown;
+      lanes_.values[at] = std::numeric_limits<double>::infinity();
+      state_[at] = kKnown;
     } else if (leaves(at)) {
       set(at, (*lanes_.beyond)[target(at)]);
-    } else if (places_[target(at)].state == kKnown) {
-      set(at, places_[target(at)].value);
+    } else if (state_[target(at)] == kKnown) {
+      set(at, lanes_.values[target(at)]);
     }
-    return places_[at].state == kKnown;
+    return state_[at] == kKnown;
   }
   void follow(std::size_t at) {
     walk_.clear();
-    while (places_[at].state == kUnseen && !settle(at)) {
-      places_[at].state = kOnWalk;
+    while (state_[at] == kUnseen && !settle(at)) {
+      state_[at] = kOnWalk;
       walk_.push_back(at);
       at = target(at);
     }
-    if (places_[at].state == kOnWalk) close(at);
+    if (state_[at] == kOnWalk) close(at);
     for (std::size_t k = walk_.size(); k-- > 0;) {
-      if (places_[walk_[k]].state != kKnown) set(walk_[k], places_[target(walk_[k])].value);
+      if (state_[walk_[k]] != kKnown) set(walk_[k], lanes_.values[target(walk_[k])]);
     }
   }
   void close(std::size_t at) {
@@ -372,12 +349,12 @@ class Evaluation {
       power *= lanes_.discount;
       q = target(q);
     } while (q != at);
-    places_[at].value = sum / (1 - power);
-    places_[at].state = kKnown;
+    lanes_.values[at] = sum / (1 - power);
+    state_[at] = kKnown;
   }
 
   Lanes& lanes_;
-  std::vector<Place>& places_;
+  std::vector<std::uint8_t> state_;
   std::vector<std::size_t> walk_;
 };
 
@@ -420,8 +397,7 @@ Edges make_edges(const CostTable& costs, std::span<const float> skip_costs,
       if (open && t.to >= next_but_one) add(next_but_one, skip), open = false;
       if (skips && t.to == next_but_one) continue;
       const bool needed = !costs.needed.empty() && costs.needed[costs.row_start[i] + k] != 0;
-      if (needed || static_cast<double>(t.cost) <= limit)
-        add(t.to, price_of(static_cast<double>(t.cost)));
+      if (needed || static_cast<double>(t.cost) <= limit) add(t.to, price_of(static_cast<double>(t.cost)));
     }
     if (open) add(next_but_one, skip);
     edges.row_start.push_back(static_cast<std::uint32_t>(edges.to.size()));

@@ -64,12 +64,6 @@ struct Lanes {
     std::vector<float> price;
   } seen;
   LaneFloats work;  ///< of sweeps, kept so that none has to fetch memory anew
-  struct Place {    ///< of evaluations: what a step needs to know of its target
-    double value;
-    float arrive;
-    std::uint32_t state;
-  };
-  std::vector<Place> places;
 };
 /// `lanes.arrive` is due; values become 0.
 void start(const Edges& edges, Lanes& lanes);

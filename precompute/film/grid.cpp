@@ -64,46 +64,21 @@ struct Bits {
   }
 };
 
-constexpr std::uint64_t kOnes = 0x0101010101010101u;
-
-// Eight cells at a time: the product moves the lowest bit of byte i to bit 56 + i.
+// The vectors are a word longer than the rows: the lanes read ahead.
 Bits pack(const Mask& mask, bool complement) {
   Bits bits{mask.width, mask.height, (static_cast<std::size_t>(mask.width) + 63) / 64, {}, {}};
-  bits.in.assign(bits.words * static_cast<std::size_t>(mask.height), 0);
-  const std::uint64_t flip = complement ? kOnes : 0;
-  for (int y = 0; y < mask.height; ++y) {
-    const std::uint8_t* row = mask.row(y);
-    std::uint64_t* out = bits.row(bits.in, y);
-    int x = 0;
-    for (; x + 8 <= mask.width; x += 8) {
-      std::uint64_t cells = 0;
-      std::memcpy(&cells, row + x, 8);
-      out[x / 64] |= (((cells ^ flip) * 0x0102040810204080u) >> 56) << (x % 64);
-    }
-    for (; x < mask.width; ++x)
-      out[x / 64] |= static_cast<std::uint64_t>((row[x] != 0) != complement) << (x % 64);
-  }
+  bits.in.resize(bits.words * static_cast<std::size_t>(mask.height) + 1);
+  for (int y = 0; y < mask.height; ++y)
+    lanes().pack_bits(mask.row(y), mask.width, complement, bits.row(bits.in, y));
   bits.next.resize(bits.in.size());
   return bits;
 }
 
 Mask unpack(const Bits& bits, bool complement) {
   Mask mask(bits.width, bits.height);
-  const std::uint64_t flip = complement ? kOnes : 0;
-  for (int y = 0; y < mask.height; ++y) {
-    const std::uint64_t* in = bits.in.data() + static_cast<std::size_t>(y) * bits.words;
-    std::uint8_t* row = mask.row(y);
-    int x = 0;
-    for (; x + 8 <= mask.width; x += 8) {
-      // Bit i of the byte stays alone in byte i, then carries into that byte's highest bit.
-      const std::uint64_t byte = (in[x / 64] >> (x % 64)) & 255;
-      const std::uint64_t apart = (byte * kOnes) & 0x8040201008040201u;
-      const std::uint64_t cells = (((apart + 0x7F7F7F7F7F7F7F7Fu) >> 7) & kOnes) ^ flip;
-      std::memcpy(row + x, &cells, 8);
-    }
-    for (; x < mask.width; ++x)
-      row[x] = static_cast<std::uint8_t>(((in[x / 64] >> (x % 64)) & 1) ^ (complement ? 1 : 0));
-  }
+  for (int y = 0; y < mask.height; ++y)
+    lanes().unpack_bits(bits.in.data() + static_cast<std::size_t>(y) * bits.words, mask.width,
+                        complement, mask.row(y));
   return mask;
 }
 
@@ -164,13 +139,16 @@ Mask spread_disc(const Mask& mask, int radius, bool larger) {
 // directly.
 void blur_rows(const float* in, float* out, int width, int height, int radius) {
   const float scale = 1.0f / static_cast<float>(2 * radius + 1);
-  if (radius <= 2 && width > 2 * radius) {
+  if (radius == 2 && width > 4) {
+    for (int y = 0; y < height; ++y, in += width, out += width)
+      lanes().blur5_row(in, width, scale, out);
+    return;
+  }
+  if (radius == 1 && width > 2) {
     for (int y = 0; y < height; ++y, in += width, out += width) {
       for (int x = 0; x < width; ++x) out[x] = in[x];
-      for (int k = 1; k <= radius; ++k) {
-        for (int x = 0; x < width - k; ++x) out[x] += in[x + k];
-        for (int x = k; x < width; ++x) out[x] += in[x - k];
-      }
+      for (int x = 0; x < width - 1; ++x) out[x] += in[x + 1];
+      for (int x = 1; x < width; ++x) out[x] += in[x - 1];
       for (int x = 0; x < width; ++x) out[x] *= scale;
     }
     return;
@@ -191,6 +169,10 @@ void blur_columns(const float* in, float* out, int width, int height, int radius
   if (radius <= 2) {
     for (int y = 0; y < height; ++y, out += width) {
       const float* middle = in + static_cast<std::ptrdiff_t>(y) * width;
+      if (radius == 2 && y >= 2 && y + 2 < height) {
+        lanes().blur5_column(middle, width, width, scale, out);
+        continue;
+      }
       for (int x = 0; x < width; ++x) out[x] = middle[x];
       for (int k = 1; k <= radius; ++k) {
         const float* above = middle - static_cast<std::ptrdiff_t>(k) * width;

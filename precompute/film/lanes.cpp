@@ -174,6 +174,60 @@ void spread_into(const std::uint8_t* __restrict in, std::size_t n, bool larger,
     for (std::size_t i = 0; i < n; ++i) inout[i] = inout[i] < in[i] ? inout[i] : in[i];
 }
 
+void pack_bits(const std::uint8_t* __restrict in, int n, bool complement,
+               std::uint64_t* __restrict bits) {
+  std::fill_n(bits, (n + 63) / 64, std::uint64_t{0});
+  int x = 0;
+#if HWY_TARGET != HWY_SCALAR
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<std::uint8_t, 64> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  auto* bytes = reinterpret_cast<std::uint8_t*>(bits);
+  for (; x + step <= n; x += step) {
+    const auto out = hn::Eq(hn::LoadU(d, in + x), hn::Zero(d));
+    hn::StoreMaskBits(d, complement ? out : hn::Not(out), bytes + x / 8);
+  }
+#endif
+  for (; x < n; ++x)
+    bits[x / 64] |= static_cast<std::uint64_t>((in[x] != 0) != complement) << (x % 64);
+}
+
+void unpack_bits(const std::uint64_t* __restrict bits, int n, bool complement,
+                 std::uint8_t* __restrict out) {
+  int x = 0;
+#if HWY_TARGET != HWY_SCALAR
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<std::uint8_t, 64> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  const auto* bytes = reinterpret_cast<const std::uint8_t*>(bits);
+  const auto flip = hn::Set(d, static_cast<std::uint8_t>(complement ? 1 : 0));
+  for (; x + step <= n; x += step) {
+    const auto in = hn::LoadMaskBits(d, bytes + x / 8);
+    hn::StoreU(hn::Xor(hn::IfThenElseZero(in, hn::Set(d, std::uint8_t{1})), flip), d, out + x);
+  }
+#endif
+  for (; x < n; ++x)
+    out[x] = static_cast<std::uint8_t>(((bits[x / 64] >> (x % 64)) & 1) ^ (complement ? 1 : 0));
+}
+
+void blur5_row(const float* __restrict in, int n, float scale, float* __restrict out) {
+  out[0] = (in[0] + in[1] + in[2]) * scale;
+  out[1] = (in[1] + in[2] + in[0] + in[3]) * scale;
+  for (int x = 2; x + 2 < n; ++x)
+    out[x] = (in[x] + in[x + 1] + in[x - 1] + in[x + 2] + in[x - 2]) * scale;
+  out[n - 2] = (in[n - 2] + in[n - 1] + in[n - 3] + in[n - 4]) * scale;
+  out[n - 1] = (in[n - 1] + in[n - 2] + in[n - 3]) * scale;
+}
+
+void blur5_column(const float* __restrict middle, std::ptrdiff_t stride, int n, float scale,
+                  float* __restrict out) {
+  const float* __restrict a = middle - stride;
+  const float* __restrict b = middle + stride;
+  const float* __restrict aa = a - stride;
+  const float* __restrict bb = b + stride;
+  for (int x = 0; x < n; ++x) out[x] = (middle[x] + a[x] + b[x] + aa[x] + bb[x]) * scale;
+}
+
 void blur3(const float* __restrict in, int width, int height, float* __restrict rows,
            float* __restrict out) {
   const auto w = static_cast<std::size_t>(width);
@@ -646,6 +700,7 @@ std::uint32_t difference(const std::uint8_t* __restrict a, const std::uint8_t* _
 const Lanes* get_lanes() {
   static constexpr Lanes kLanes = {count_different, sum_cells,       contrast,  look_up,
                                    shift,           forgive_shadows, above,     spread_into,
+                                   pack_bits,       unpack_bits,     blur5_row, blur5_column,
                                    blur3,           gamut_bound,     key_share, distance,
                                    score,           moments,         mix,       double_row,
                                    project,         modes,           set_sure,  weigh_rim,

@@ -105,6 +105,13 @@ struct Lanes {
   void (*above)(const float* values, float limit, std::size_t n, std::uint8_t* out);
   /// inout = the larger (the lesser) of two.
   void (*spread_into)(const std::uint8_t* in, std::size_t n, bool larger, std::uint8_t* inout);
+  /// A bit a cell, where `in` is not 0 or, of the complement, where it is; and back to 0 and 1.
+  /// `bits`: whole words, what is left of the last is 0; eight bytes more may be read.
+  void (*pack_bits)(const std::uint8_t* in, int n, bool complement, std::uint64_t* bits);
+  void (*unpack_bits)(const std::uint64_t* bits, int n, bool complement, std::uint8_t* out);
+  /// Sums of five, times `scale`: along a row of n >= 5, outside is 0; and over five rows.
+  void (*blur5_row)(const float* in, int n, float scale, float* out);
+  void (*blur5_column)(const float* middle, std::ptrdiff_t stride, int n, float scale, float* out);
   /// Means over 3 x 3, outside is 0. `scratch` and `out` are as large as `in`.
   void (*blur3)(const float* in, int width, int height, float* scratch, float* out);
   /// Alpha below this puts F outside the gamut; two sigma of noise are taken off.

@@ -198,11 +198,11 @@ void gather_moments(Patch& patch, const std::vector<float>& weight,
                     span.size(), out);
   }
   const std::vector<float> nothing(static_cast<std::size_t>(w));
+  const std::size_t squares = static_cast<std::size_t>(ww) * static_cast<std::size_t>(wh);
   for (int k = 0; k < kMoments; ++k) {
-    auto& near = patch.near[k];
+    const auto& near = patch.near[k];
     auto& wide = patch.wide[k];
-    wide.assign(static_cast<std::size_t>(ww) * static_cast<std::size_t>(wh), 0);
-    double all = 0;
+    wide.resize(squares);
     for (int y = 0; y < wh; ++y) {
       const float* first = near.data() + static_cast<std::ptrdiff_t>(2 * y) * w;
       const float* second = 2 * y + 1 < h ? first + w : nothing.data();
@@ -210,13 +210,20 @@ void gather_moments(Patch& patch, const std::vector<float>& weight,
       lanes().halve(first, second, w / 2, out);
       if (w % 2) out[ww - 1] = 0.25f * (first[w - 1] + second[w - 1]);
     }
-    for (const float value : wide) all += static_cast<double>(value);
+  }
+  // Of the whole patch; ten sums at a time, each in its own order.
+  double all[kMoments] = {};
+  for (std::size_t i = 0; i < squares; ++i)
+    for (int k = 0; k < kMoments; ++k) all[k] += static_cast<double>(patch.wide[k][i]);
+  for (int k = 0; k < kMoments; ++k) {
+    auto& near = patch.near[k];
+    auto& wide = patch.wide[k];
     blur(wide, ww, wh, 2, 3, patch.scratch);
     lanes().blur3(near.data(), w, h, patch.scratch.data(), near_all.data());
     // near + far wide + whole.
     std::vector<float>& mixed = patch.rows[k];
     mixed.resize(static_cast<std::size_t>(2 * ww) + 2 * kRoom + static_cast<std::size_t>(4 * w));
-    const float whole = kGlobalWeight * static_cast<float>(all);
+    const float whole = kGlobalWeight * static_cast<float>(all[k]);
     for (int y = 0; y < h; ++y) {
       const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), wh - 1);
       const float* a = wide.data() + static_cast<std::ptrdiff_t>(y / 2) * ww;
