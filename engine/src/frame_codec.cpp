@@ -1,73 +1,288 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// A picture as its pack holds it: every row less the row above, byte by byte modulo 256, then zstd.
-// Neighbouring rows of a matte are alike, so that the differences compress far better.
-#include <xxhash.h>
-#include <zstd.h>
+// Taking compressed pictures apart, on any bytes, and making them. The writer tries both ways of
+// predicting a row and every factor of alpha; all its choices are integers.
+#include "frame_codec.h"
 
-#include <new>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstdlib>
 
 #include "pack_format.h"
 
 namespace vsprite::detail {
 namespace {
 
-constexpr int kLevel = 9;
+constexpr std::size_t kSlack = 8;        // a block is read as eight bytes
+constexpr std::uint32_t kLeastGap = 16;  // transparent pixels that end a run
 
-void subtract_rows(std::span<const std::uint8_t> pixels, std::size_t stride,
-                   std::span<std::uint8_t> delta) {
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const unsigned above = i < stride ? 0u : pixels[i - stride];
-    delta[i] = static_cast<std::uint8_t>(pixels[i] - above);
+// Numbers of the row part: one byte each where the width allows, else two.
+class RowNumbers {
+ public:
+  RowNumbers(std::span<const std::uint8_t> bytes, int width) : bytes_(bytes), wide_(width > 255) {}
+  // False: the bytes have come to an end.
+  bool get(std::uint32_t& value) {
+    const std::size_t size = wide_ ? 2 : 1;
+    if (bytes_.size() - at_ < size) return false;
+    value = bytes_[at_];
+    if (wide_) value |= std::uint32_t{bytes_[at_ + 1]} << 8;
+    at_ += size;
+    return true;
+  }
+  std::size_t used() const { return at_; }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  bool wide_;
+  std::size_t at_ = 0;
+};
+
+bool read_row(RowNumbers& numbers, FrameParts& parts) {
+  std::uint32_t head = 0;
+  if (!numbers.get(head)) return false;
+  parts.rows.push_back({head / 2, head % 2 != 0});
+  std::uint32_t end = 0;
+  for (std::uint32_t k = 0; k < head / 2; ++k) {
+    std::uint32_t gap = 0, count = 0;
+    if (!numbers.get(gap) || !numbers.get(count)) return false;
+    const auto left = static_cast<std::uint32_t>(parts.width) - end;
+    if (count == 0 || gap > left || count > left - gap) return false;
+    parts.runs.push_back({end + gap, end + gap + count});
+    end += gap + count;
+    parts.pixels += count;
+  }
+  return true;
+}
+
+std::size_t block_count(std::size_t pixels) { return (pixels + kBlock - 1) / kBlock; }
+
+// Bytes of all residuals, from the widths of the blocks.
+std::size_t residual_bytes(const std::uint8_t* widths, std::size_t blocks) {
+  std::size_t sum = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const unsigned codes = block_codes(widths, b);
+    for (unsigned shift = 0; shift < 12; shift += 3) sum += kWidths[codes >> shift & 7];
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::span<std::uint8_t> FrameCodec::input(std::size_t bytes) {
+  size_ = bytes;
+  buffer_.resize(bytes + kSlack);
+  return {buffer_.data(), bytes};
+}
+
+bool FrameCodec::read_parts(int width, int height) {
+  const std::span<const std::uint8_t> bytes(buffer_.data(), size_);
+  if (bytes.size() < kFrameHead || bytes[0] != kFrameForm) return false;
+  parts_.width = width;
+  parts_.height = height;
+  for (std::size_t c = 0; c < 3; ++c) {
+    parts_.factors[c] = static_cast<std::int8_t>(bytes[1 + c]);
+    if (std::abs(parts_.factors[c]) > kMaxFactor) return false;
+  }
+  parts_.rows.clear();
+  parts_.runs.clear();
+  parts_.pixels = 0;
+  RowNumbers numbers(bytes.subspan(kFrameHead), width);
+  for (int y = 0; y < height; ++y)
+    if (!read_row(numbers, parts_)) return false;
+  const std::size_t blocks = block_count(parts_.pixels);
+  const std::size_t at = kFrameHead + numbers.used(), width_bytes = (12 * blocks + 7) / 8;
+  if (bytes.size() - at < width_bytes) return false;
+  parts_.widths = bytes.data() + at;
+  parts_.residuals = parts_.widths + width_bytes;
+  const bool is_padded = blocks % 2 == 0 || parts_.widths[width_bytes - 1] >> 4 == 0;
+  return is_padded && residual_bytes(parts_.widths, blocks) == bytes.size() - at - width_bytes;
+}
+
+bool FrameCodec::decode(int width, int height, Image& image) {
+  if (!read_parts(width, height)) return false;
+  image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  image.width = width;
+  image.height = height;
+  scratch_.resize(decode_scratch(parts_));
+  decode_parts(parts_, scratch_, image.rgba.data());
+  return true;
+}
+
+namespace {
+
+// Residuals of one channel, modulo 256, as signed numbers.
+using Plane = std::vector<std::int8_t>;
+using Planes = std::array<Plane, 4>;
+
+std::vector<Run> find_runs(const Image& image, int y) {
+  const auto width = static_cast<std::uint32_t>(image.width);
+  const std::uint8_t* row = image.rgba.data() + std::size_t{4} * width * static_cast<unsigned>(y);
+  std::vector<Run> runs;
+  for (std::uint32_t x = 0; x < width; ++x) {
+    const std::uint8_t* p = row + std::size_t{4} * x;
+    if ((p[0] | p[1] | p[2] | p[3]) == 0) continue;
+    if (runs.empty() || x - runs.back().end >= kLeastGap)
+      runs.push_back({x, x + 1});
+    else
+      runs.back().end = x + 1;
+  }
+  return runs;
+}
+
+std::int8_t wrap(int value) { return static_cast<std::int8_t>(static_cast<std::uint8_t>(value)); }
+
+// Residuals of a row in one of the two ways of predicting it.
+Planes predict_row(const Image& image, int y, std::span<const Run> runs, bool is_smooth) {
+  const std::size_t stride = std::size_t{4} * static_cast<std::size_t>(image.width);
+  const std::uint8_t* row = image.rgba.data() + stride * static_cast<std::size_t>(y);
+  Planes planes;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (const Run& run : runs) {
+      int before = 0;
+      for (std::size_t x = run.begin; x < run.end; ++x) {
+        const std::uint8_t* p = row + 4 * x + c;
+        const int change = *p - (y == 0 ? 0 : *(p - stride));
+        planes[c].push_back(wrap(change - (is_smooth ? before : 0)));
+        before = change;
+      }
+    }
+  }
+  return planes;
+}
+
+// Bits of the value with sign, at least 0: -1..0 need 1 and 0.
+unsigned bits_of(int value) {
+  return value == 0 ? 0 : 1 + std::bit_width(static_cast<unsigned>(value < 0 ? ~value : value));
+}
+
+unsigned row_price(const Planes& planes) {
+  unsigned price = 0;
+  for (std::size_t i = 0; i < planes[0].size(); ++i) {
+    const int green = planes[kGreen][i];
+    price += bits_of(planes[kAlpha][i]) + bits_of(green) + bits_of(wrap(planes[kRed][i] - green)) +
+             bits_of(wrap(planes[kBlue][i] - green));
+  }
+  return price;
+}
+
+// The code of the least width that holds the block's residuals.
+unsigned block_code(std::span<const std::int8_t> block) {
+  unsigned bits = 0;
+  for (const std::int8_t value : block) bits = std::max(bits, bits_of(value));
+  unsigned code = 0;
+  while (kWidths[code] < bits) ++code;
+  return code;
+}
+
+std::span<const std::int8_t> block_of(const Plane& plane, std::size_t b) {
+  return std::span(plane).subspan(b * kBlock, std::min(kBlock, plane.size() - b * kBlock));
+}
+
+std::size_t plane_price(const Plane& plane) {
+  std::size_t bytes = 0;
+  for (std::size_t b = 0; b < block_count(plane.size()); ++b)
+    bytes += kWidths[block_code(block_of(plane, b))];
+  return bytes;
+}
+
+// What is left of a colour beyond its share of alpha (and of green).
+Plane residue(const Plane& color, const Plane& alpha, const Plane* green, int factor) {
+  Plane rest(color.size());
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    const int predicted = (alpha[i] * factor >> kFactorShift) + (green ? (*green)[i] : 0);
+    rest[i] = wrap(color[i] - predicted);
+  }
+  return rest;
+}
+
+// Replaces the channel by what is left of it at the best factor, which is returned.
+std::int8_t decouple(Plane& color, const Plane& alpha, const Plane* green) {
+  Plane best;
+  int best_factor = 0;
+  std::size_t least = ~std::size_t{0};
+  for (int factor = green ? -kMaxFactor : 0; factor <= kMaxFactor; ++factor) {
+    Plane rest = residue(color, alpha, green, factor);
+    const std::size_t price = plane_price(rest);
+    if (price >= least) continue;
+    least = price;
+    best = std::move(rest);
+    best_factor = factor;
+  }
+  color = std::move(best);
+  return static_cast<std::int8_t>(best_factor);
+}
+
+void put_number(std::vector<std::uint8_t>& out, int width, std::size_t value) {
+  out.push_back(static_cast<std::uint8_t>(value));
+  if (width > 255) out.push_back(static_cast<std::uint8_t>(value >> 8));
+}
+
+void put_row(std::vector<std::uint8_t>& out, int width, std::span<const Run> runs, bool is_smooth) {
+  put_number(out, width, 2 * runs.size() + is_smooth);
+  std::uint32_t end = 0;
+  for (const Run& run : runs) {
+    put_number(out, width, run.begin - end);
+    put_number(out, width, run.end - run.begin);
+    end = run.end;
   }
 }
 
-void add_rows(std::span<std::uint8_t> pixels, std::size_t stride) {
-  for (std::size_t i = stride; i < pixels.size(); ++i) {
-    pixels[i] = static_cast<std::uint8_t>(pixels[i] + pixels[i - stride]);
+// Widths of all blocks, then their residuals.
+void put_planes(std::vector<std::uint8_t>& out, const Planes& planes) {
+  constexpr std::array<Channel, 4> kOrder{kAlpha, kRed, kGreen, kBlue};
+  const std::size_t blocks = block_count(planes[0].size()), at = out.size();
+  out.resize(at + (12 * blocks + 7) / 8);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    unsigned codes = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto block = block_of(planes[kOrder[k]], b);
+      const unsigned code = block_code(block);
+      codes |= code << (3 * k);
+      std::uint64_t bits = 0;
+      const unsigned width = kWidths[code];
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        const std::uint64_t low = static_cast<std::uint8_t>(block[i]) & ((1u << width) - 1);
+        bits |= width == 0 ? 0 : low << (i * width);
+      }
+      for (unsigned byte = 0; byte < width; ++byte)
+        out.push_back(static_cast<std::uint8_t>(bits >> (8 * byte)));
+    }
+    codes <<= b % 2 * 4;
+    out[at + b * 12 / 8] |= static_cast<std::uint8_t>(codes);
+    out[at + b * 12 / 8 + 1] |= static_cast<std::uint8_t>(codes >> 8);
   }
 }
 
 }  // namespace
 
-FrameCodec::FrameCodec() = default;
-
-FrameCodec::~FrameCodec() {
-  ZSTD_freeCCtx(static_cast<ZSTD_CCtx*>(compressor_));
-  ZSTD_freeDCtx(static_cast<ZSTD_DCtx*>(decompressor_));
-}
-
-Result<std::span<const std::uint8_t>> FrameCodec::encode(const Image& image) {
-  const Error no_memory{ErrorCode::OutOfMemory, "out of memory while compressing a picture"};
-  if (!compressor_) compressor_ = ZSTD_createCCtx();
-  if (!compressor_) return no_memory;
-  const std::size_t bytes = image.rgba.size();
-  delta_.resize(bytes);
-  subtract_rows(image.rgba, 4 * static_cast<std::size_t>(image.width), delta_);
-  buffer.resize(ZSTD_compressBound(bytes));
-  const std::size_t size = ZSTD_compressCCtx(static_cast<ZSTD_CCtx*>(compressor_), buffer.data(),
-                                             buffer.size(), delta_.data(), bytes, kLevel);
-  if (ZSTD_isError(size)) return no_memory;
-  return std::span<const std::uint8_t>(buffer.data(), size);
-}
-
-bool FrameCodec::decode(std::span<const std::uint8_t> bytes, int width, int height, Image& image) {
-  const std::size_t stride = 4 * static_cast<std::size_t>(width);
-  const std::size_t due = stride * static_cast<std::size_t>(height);
-  // The size is claimed twice, by the sample and by the frame; memory is taken only if they agree.
-  if (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != due) return false;
-  if (ZSTD_findFrameCompressedSize(bytes.data(), bytes.size()) != bytes.size()) return false;
-  if (!decompressor_) decompressor_ = ZSTD_createDCtx();
-  if (!decompressor_) throw std::bad_alloc();
-  image.rgba.resize(due);
-  image.width = width;
-  image.height = height;
-  const std::size_t got = ZSTD_decompressDCtx(static_cast<ZSTD_DCtx*>(decompressor_),
-                                              image.rgba.data(), due, bytes.data(), bytes.size());
-  if (ZSTD_isError(got) || got != due) return false;
-  add_rows(image.rgba, stride);
-  return true;
+std::span<const std::uint8_t> FrameCodec::encode(const Image& image) {
+  assert(image.width > 0 && image.width <= 65535 && image.height > 0);
+  Planes planes;
+  std::vector<std::uint8_t> rows;
+  for (int y = 0; y < image.height; ++y) {
+    const auto runs = find_runs(image, y);
+    const Planes plain = predict_row(image, y, runs, false);
+    const Planes smooth = predict_row(image, y, runs, true);
+    const bool is_smooth = row_price(smooth) < row_price(plain);
+    put_row(rows, image.width, runs, is_smooth);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const Plane& best = is_smooth ? smooth[c] : plain[c];
+      planes[c].insert(planes[c].end(), best.begin(), best.end());
+    }
+  }
+  const Plane green = planes[kGreen], &alpha = planes[kAlpha];
+  const auto of_red = decouple(planes[kRed], alpha, &green);
+  const auto of_green = decouple(planes[kGreen], alpha, nullptr);
+  const auto of_blue = decouple(planes[kBlue], alpha, &green);
+  buffer_ = {kFrameForm, static_cast<std::uint8_t>(of_red), static_cast<std::uint8_t>(of_green),
+             static_cast<std::uint8_t>(of_blue)};
+  buffer_.insert(buffer_.end(), rows.begin(), rows.end());
+  put_planes(buffer_, planes);
+  return buffer_;
 }
 
 std::uint64_t hash_bytes(std::span<const std::uint8_t> bytes) noexcept {

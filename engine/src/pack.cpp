@@ -82,10 +82,10 @@ void verify_frames(const ByteSource& source, const PackContent& content, std::si
           finding(code, "FRAM", offset, "picture of sample " + std::to_string(i) + ": " + what)
               .issue);
     };
-    codec.buffer.resize(frame.bytes);
-    if (!source.read(offset, codec.buffer) || hash_bytes(codec.buffer) != frame.sum) {
+    const auto bytes = codec.input(frame.bytes);
+    if (!source.read(offset, bytes) || hash_bytes(bytes) != frame.sum) {
       report("frame-sum", "its sum does not fit its bytes");
-    } else if (!codec.decode(codec.buffer, sample.width, sample.height, image)) {
+    } else if (!codec.decode(sample.width, sample.height, image)) {
       report("frame-decode", "its bytes are not a picture of " + std::to_string(sample.width) +
                                  " x " + std::to_string(sample.height) + " pixels");
     } else if (!is_premultiplied(image)) {

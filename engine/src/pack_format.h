@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "file.h"
+#include "frame_codec.h"
 #include "ticks.h"
 #include "vsprite/pack.h"
 
@@ -95,27 +96,6 @@ Check read_content(const ByteSource& source, PackContent& content);
 /// load_pack and verify_pack from any source; verifying stops after `most` issues.
 Result<Sprite> load_pack_from(ByteSource source);
 Result<std::vector<PackIssue>> verify_pack_from(ByteSource source, std::size_t most = 1000);
-
-/// zstd over rows from which the row above was subtracted; see PACK.md, "FRAM".
-class FrameCodec {
- public:
-  FrameCodec();
-  ~FrameCodec();
-  FrameCodec(const FrameCodec&) = delete;
-  FrameCodec& operator=(const FrameCodec&) = delete;
-  /// `image` premultiplied. Errors: OutOfMemory. The result is valid until the next call.
-  Result<std::span<const std::uint8_t>> encode(const Image& image);
-  /// Fills `image` of the given size. False: not the compressed form of such a picture.
-  /// May throw std::bad_alloc.
-  bool decode(std::span<const std::uint8_t> bytes, int width, int height, Image& image);
-
-  std::vector<std::uint8_t> buffer;  ///< scratch: compressed bytes
-
- private:
-  void* compressor_ = nullptr;
-  void* decompressor_ = nullptr;
-  std::vector<std::uint8_t> delta_;
-};
 
 std::uint64_t hash_bytes(std::span<const std::uint8_t> bytes) noexcept;
 

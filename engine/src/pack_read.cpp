@@ -26,13 +26,13 @@ struct Header {
 };
 
 Check check_version(const PackContent& content) {
-  if (content.major == kPackMajor && content.minor == kPackMinor) return {};
-  const auto text = [](std::uint16_t major, std::uint16_t minor) {
-    return number(major) + "." + number(minor);
-  };
+  // A newer minor version adds sections, which are skipped.
+  if (content.major == kPackMajor) return {};
   return finding("version", "", 8,
-                 "pack version " + text(content.major, content.minor) + ", this build reads " +
-                     text(kPackMajor, kPackMinor) + ": rebuild it with `vsprite build`",
+                 "pack version " + number(content.major) + "." + number(content.minor) +
+                     ", this build reads 1.0 to " + number(kPackMajor) + ".x: " +
+                     (content.major == 0 ? "rebuild it with `vsprite build`"
+                                         : "get a newer vsprite, or build the pack with this one"),
                  ErrorCode::UnsupportedVersion);
 }
 
@@ -108,6 +108,12 @@ Check check_layout(const PackContent& content, std::uint64_t file_bytes) {
   return finding("trailing-bytes", "", end, "the last section ends before the file does");
 }
 
+constexpr std::array<std::string_view, 5> kSingle{"META", "SAMP", "TRAN", "FIDX", "FRAM"};
+
+bool is_known(std::string_view name) {
+  return name == "CTRL" || std::find(kSingle.begin(), kSingle.end(), name) != kSingle.end();
+}
+
 Check read_entries(std::span<const std::uint8_t> table, PackContent& content) {
   Cursor cursor(table.subspan(kHeaderBytes));
   for (std::uint64_t at = kHeaderBytes; cursor.left() > 0; at += kEntryBytes) {
@@ -120,7 +126,8 @@ Check read_entries(std::span<const std::uint8_t> table, PackContent& content) {
     }
     const auto version = cursor.get<std::uint16_t>();
     const auto flags = cursor.get<std::uint16_t>();
-    if (version != 1 || flags != 0) {
+    // Sections that this build does not know may be of any version.
+    if (is_known(entry.name) && (version != 1 || flags != 0)) {
       return finding(
           "section-version", entry.name, at + 4,
           "version " + number(version) + " and flags " + number(flags) + ", 1 and 0 are due",
@@ -133,8 +140,6 @@ Check read_entries(std::span<const std::uint8_t> table, PackContent& content) {
   }
   return {};
 }
-
-constexpr std::array<std::string_view, 5> kSingle{"META", "SAMP", "TRAN", "FIDX", "FRAM"};
 
 Check check_names(const PackContent& content) {
   const auto count = [&](std::string_view name) {

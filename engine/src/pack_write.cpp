@@ -179,12 +179,11 @@ Result<void> write_frames(const std::string& path, const SpriteData& data,
         return misfit(path, i, s, *image);
       }
       premultiply(*image);
-      auto bytes = codec.encode(*image);
-      if (!bytes) return bytes.error();
-      entry = {offset, static_cast<std::uint32_t>(bytes->size()), hash_bytes(*bytes)};
+      const auto bytes = codec.encode(*image);
+      entry = {offset, static_cast<std::uint32_t>(bytes.size()), hash_bytes(bytes)};
       offset += entry.bytes;
-      XXH3_64bits_update(&sum, bytes->data(), bytes->size());
-      if (auto written = pack.append(*bytes); !written) return written;
+      XXH3_64bits_update(&sum, bytes.data(), bytes.size());
+      if (auto written = pack.append(bytes); !written) return written;
     }
     index.put(entry.offset);
     index.put(entry.bytes);

@@ -403,7 +403,7 @@ int Sprite::find_mode(std::string_view name) const noexcept {
 namespace {
 
 // Borrows a decoder from the sprite's idle ones, so that any number of threads may decode at once
-// and none pays for a new zstd context each time.
+// and none takes its memory anew each time.
 class BorrowedCodec {
  public:
   explicit BorrowedCodec(Sprite::Impl& impl) : impl_(impl) {
@@ -433,14 +433,11 @@ Result<void> decode(Sprite::Impl& impl, std::uint32_t sample, Image& out) {
   const Sample& s = impl.data.samples[sample];
   const detail::FrameEntry& entry = impl.frames[sample];
   BorrowedCodec codec(impl);
-  codec->buffer.resize(entry.bytes);
-  if (auto read = impl.source.read(impl.fram_offset + entry.offset, codec->buffer); !read) {
+  const auto bytes = codec->input(entry.bytes);
+  if (auto read = impl.source.read(impl.fram_offset + entry.offset, bytes); !read) {
     return read.error();
   }
-  if (detail::hash_bytes(codec->buffer) == entry.sum &&
-      codec->decode(codec->buffer, s.width, s.height, out)) {
-    return {};
-  }
+  if (detail::hash_bytes(bytes) == entry.sum && codec->decode(s.width, s.height, out)) return {};
   return Error{ErrorCode::CorruptData, impl.source.name() + ": picture of sample " +
                                            std::to_string(sample) + " is damaged"};
 }

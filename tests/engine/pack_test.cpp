@@ -87,7 +87,6 @@ TEST(Pack, TheSameInputGivesTheSameBytesAndTheyAreValid) {
   const testing::TempFolder folder;
   ASSERT_TRUE(save_tiny(folder.file("a.vsp")));
   EXPECT_EQ(testing::read_bytes(folder.file("a.vsp")), tiny_pack_bytes());
-  EXPECT_LE(tiny_pack_bytes().size(), 80'000u);
   EXPECT_TRUE(testing::verify_bytes(tiny_pack_bytes()).empty());
   EXPECT_EQ(testing::PackParts::split(tiny_pack_bytes()).join(), tiny_pack_bytes());
 }
@@ -97,8 +96,8 @@ TEST(Pack, InfoListsTheSections) {
   ASSERT_TRUE(save_tiny(folder.file("a.vsp")));
   const auto info = read_pack_info(folder.file("a.vsp"));
   ASSERT_TRUE(info) << info.error().message;
-  EXPECT_EQ(info->major, 0);
-  EXPECT_EQ(info->minor, 2);
+  EXPECT_EQ(info->major, 1);
+  EXPECT_EQ(info->minor, 0);
   EXPECT_EQ(info->bytes, tiny_pack_bytes().size());
   std::string names;
   for (const PackSection& section : info->sections) names += section.name + " ";
@@ -129,26 +128,33 @@ TEST(Pack, EveryPrefixIsRefusedAndSoIsOneByteMore) {
   EXPECT_FALSE(testing::load_bytes(longer));
 }
 
-TEST(Pack, EverySingleFlippedBitIsDetected) {
-  ByteVector bytes = tiny_pack_bytes();
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
-    ASSERT_FALSE(testing::verify_bytes(bytes, 1).empty()) << "bit " << bit;
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << (bit % 8));
-  }
+TEST(Pack, ANewerMinorVersionWithSectionsOfOtherVersionsIsRead) {
+  auto parts = testing::PackParts::split(tiny_pack_bytes());
+  parts.parts.insert(parts.parts.begin(), {"XTRA", {1, 2, 3}});
+  ByteVector bytes = parts.join();
+  testing::put_at(bytes, 10, std::uint16_t{7});
+  testing::put_at(bytes, 64 + 4, std::uint16_t{9});
+  testing::put_at(bytes, 64 + 6, std::uint16_t{3});
+  testing::seal_header(bytes);
+  EXPECT_TRUE(testing::load_bytes(bytes));
+  EXPECT_TRUE(testing::verify_bytes(bytes).empty());
 }
 
-TEST(Pack, OtherVersionsAreRefusedWithAWayOut) {
-  for (auto [major, minor] : {std::pair{0, 0}, {0, 1}, {0, 3}, {1, 0}, {1, 1}, {256, 1}}) {
+TEST(Pack, OtherMajorVersionsAreRefusedWithAWayOut) {
+  for (auto [major, minor, way_out] :
+       {std::tuple{0, 0, "rebuild it with `vsprite build`"},
+        {0, 2, "rebuild it with `vsprite build`"},
+        {2, 0, "get a newer vsprite, or build the pack with this one"},
+        {256, 1, "get a newer vsprite, or build the pack with this one"}}) {
     ByteVector bytes = tiny_pack_bytes();
     testing::put_at(bytes, 8, static_cast<std::uint16_t>(major));
     testing::put_at(bytes, 10, static_cast<std::uint16_t>(minor));
     const auto sprite = testing::load_bytes(bytes);
     ASSERT_FALSE(sprite);
     EXPECT_EQ(sprite.error().code, ErrorCode::UnsupportedVersion);
-    EXPECT_EQ(sprite.error().message,
-              "tiny.vsp: pack version " + std::to_string(major) + "." + std::to_string(minor) +
-                  ", this build reads 0.2: rebuild it with `vsprite build`");
+    EXPECT_EQ(sprite.error().message, "tiny.vsp: pack version " + std::to_string(major) + "." +
+                                          std::to_string(minor) +
+                                          ", this build reads 1.0 to 1.x: " + way_out);
   }
 }
 

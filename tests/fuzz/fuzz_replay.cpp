@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// fuzz_replay FOLDER - runs every file of FOLDER/{pack,png,script} through its target: whatever
+// fuzz_replay FOLDER - runs every file of FOLDER/{pack,frame,png,script} through its target: whatever
 // once broke a reader stays in the corpus, and passes with any compiler.
 #include <cstdio>
 #include <filesystem>
@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
   }
   const std::string folder = argv[1];
   const int packs = replay(folder + "/pack", vsprite::fuzz::fuzz_pack);
+  const int frames = replay(folder + "/frame", vsprite::fuzz::fuzz_frame);
   const int pictures = replay(folder + "/png", vsprite::fuzz::fuzz_png);
   const int scripts = replay(folder + "/script", vsprite::fuzz::fuzz_script);
-  return packs > 0 && pictures > 0 && scripts > 0 ? 0 : 1;
+  return packs > 0 && frames > 0 && pictures > 0 && scripts > 0 ? 0 : 1;
 }

@@ -50,6 +50,26 @@ void fuzz_pack(std::span<const std::uint8_t> bytes) {
   }
 }
 
+// Width and height, then the compressed picture; every instruction set must agree about it.
+void fuzz_frame(std::span<const std::uint8_t> bytes) {
+  if (bytes.size() < 2) return;
+  const int width = bytes[0] + 1, height = bytes[1] + 1;
+  static const int targets = static_cast<int>(detail::frame_targets().size());
+  detail::FrameCodec codec;
+  Image first, image;
+  for (int target = 0; target < targets; ++target) {
+    detail::use_frame_target(target);
+    const auto to = codec.input(bytes.size() - 2);
+    std::copy(bytes.begin() + 2, bytes.end(), to.begin());
+    if (!codec.decode(width, height, target == 0 ? first : image)) return;
+    require(target == 0 || image.rgba == first.rgba);
+  }
+  const auto again = codec.encode(first);
+  const std::vector<std::uint8_t> copy(again.begin(), again.end());
+  std::copy(copy.begin(), copy.end(), codec.input(copy.size()).begin());
+  require(codec.decode(width, height, image) && image.rgba == first.rgba);
+}
+
 void fuzz_png(std::span<const std::uint8_t> bytes) {
   const auto image = decode_png(bytes, "fuzz.png");
   if (!image || image->rgba.size() > 1u << 20) return;

@@ -14,6 +14,7 @@ namespace vsprite::fuzz {
 /// pack that then does not load or has a damaged picture.
 void fuzz_pack(std::span<const std::uint8_t> bytes);
 /// Decodes a PNG; what was decoded must survive a round trip.
+void fuzz_frame(std::span<const std::uint8_t> bytes);
 void fuzz_png(std::span<const std::uint8_t> bytes);
 /// Parses a key script; its entries must come out in ascending order.
 void fuzz_script(std::span<const std::uint8_t> bytes);
