@@ -138,7 +138,7 @@ Path control_points(const Head& head) {
   append(out, head.nose());
   append(out, head.mouth());
   append(out, head.fringe());
-  append(out, head.ear(-1)), append(out, head.ear(1));
+  append(out, head.ear(-1));
   out.push_back(head.at(-62, 38)), out.push_back(head.at(62, 38));
   append(out, {{60, 356}, {260, 356}, {kCenter.x - 50, 330}, {kCenter.x + 48, 330}});
   return out;

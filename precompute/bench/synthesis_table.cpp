@@ -64,7 +64,9 @@ View draw_box(double yaw, double pitch) {
                       flat(colors[f][1]));
         }
     for (int i = 0; i <= 4; ++i)
-      for (int j = 0; j <= 4; ++j) view.points.push_back(at(-1 + 0.5 * i, -1 + 0.5 * j));
+      for (int j = 0; j <= 4; ++j)
+        view.points.push_back(
+            at(0.999 * (-1 + 0.5 * i), 0.999 * (-1 + 0.5 * j)));  // apart at edges
   }
   view.picture = canvas.picture();
   return view;

@@ -251,6 +251,9 @@ Result<StageKey> pack_key(StageRun& run) {
   if (!samples) return samples.error();
   const auto present = run.project.values(samples->size());
   if (!present) return present.error();
+  if (std::filesystem::exists(run.project.path("puppets.bin")))
+    return key_of(run, "pack", {{"seed", run.settings.seed}},
+                  {"sprites", "transitions.bin", "values.bin", "puppets.bin"});
   return key_of(run, "pack", {{"seed", run.settings.seed}},
                 {"sprites", "transitions.bin", "values.bin"});
 }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 
+#include "tool/files.h"
 #include "tool/settings.h"
 
 namespace vsprite {
@@ -300,6 +301,17 @@ Result<ViewSet> parse_views(const std::string& text, const std::string& path) {
                                             std::to_string(parsed.error().source().begin.line) +
                                             ": " + std::string(parsed.error().description())};
   return Parser(path).parse(parsed.table());
+}
+
+Result<void> add_puppets(const std::string& work, const std::string& pack) {
+  const std::string path = work + "/puppets.bin";
+  if (!fs::exists(path)) return {};
+  const auto text = read_file(path);
+  if (!text) return text.error();
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(text->data()), text->size());
+  const auto puppets = decode_puppets(bytes, path);
+  if (!puppets) return puppets.error();
+  return save_puppets(pack, pack, *puppets);
 }
 
 }  // namespace vsprite

@@ -51,4 +51,8 @@ namespace vsprite {
 /// Errors: BadContent (file, line, key, what is due), those of read_png, those of check_views.
 Result<ViewSet> parse_views(const std::string& text, const std::string& path);
 
+/// The puppets that `fit --work` left in a work folder, if any, into its pack.
+/// Errors: CorruptData, those of save_puppets.
+Result<void> add_puppets(const std::string& work, const std::string& pack);
+
 }  // namespace vsprite
