@@ -81,7 +81,12 @@ Result<int> run_fit(const Settings& settings, Console& console) {
   const auto set = parse_views(*text, settings.film);
   if (!set) return set.error();
   const auto puppets = fit_puppets(*set);
-  if (!puppets) return Error{puppets.error().code, settings.film + ": " + puppets.error().message};
+  // A kernel without its degree stands in the file, not on the command line.
+  if (!puppets) {
+    const ErrorCode code = puppets.error().code;
+    return Error{code == ErrorCode::BadSetting ? ErrorCode::BadContent : code,
+                 settings.film + ": " + puppets.error().message};
+  }
 
   if (!settings.output.empty())
     if (auto wrote = write_pack_of(settings.output, *puppets); !wrote) return wrote.error();
