@@ -9,6 +9,7 @@
 
 #include "control/actions.h"
 #include "tool/stages.h"
+#include "tool/views_file.h"
 #include "vsprite/pack.h"
 
 namespace vsprite {
@@ -263,6 +264,7 @@ Result<Json> write_pack(StageRun& run) {
     return pictures.picture(static_cast<int>(sample));
   };
   if (auto saved = save_pack(run.pack, *data, source); !saved) return saved.error();
+  if (auto added = add_puppets(run.project.folder(), run.pack); !added) return added.error();
 
   std::error_code error;
   Json directions = Json::array();

@@ -343,11 +343,11 @@ void add_path_options(Row& t) {
 
 void add_common_options(Row& t) {
   t.text("output", "FILE", &Settings::output, "the file to write",
-         " segment build pack dump play steer path report ")
+         " segment build fit pack dump play steer path report ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",
-         " segment label train transitions solve pack build play dump doctor report ");
+         " segment label train transitions solve fit pack build play dump doctor report ");
   t.list("force", "STAGE", &Settings::force, "run this stage again, whatever stands there",
          " segment train transitions solve pack build play ",
          "segment|train|transitions|solve|pack|all");

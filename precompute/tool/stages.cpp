@@ -256,10 +256,12 @@ Result<StageKey> pack_key(StageRun& run) {
   Json events = Json::array();
   for (const Json& clip : cast.is_array() ? cast : Json::array())
     if (clip.contains("events")) events.push_back(clip["events"]);
-  return key_of(
-      run, "pack",
-      {{"events", events}, {"seed", run.settings.seed}, {"action-tau", run.settings.action_tau}},
-      {"sprites", "transitions.bin", "values.bin"});
+  const Json settings = {
+      {"events", events}, {"seed", run.settings.seed}, {"action-tau", run.settings.action_tau}};
+  if (std::filesystem::exists(run.project.path("puppets.bin")))
+    return key_of(run, "pack", settings,
+                  {"sprites", "transitions.bin", "values.bin", "puppets.bin"});
+  return key_of(run, "pack", settings, {"sprites", "transitions.bin", "values.bin"});
 }
 
 Result<std::string> pack_output(StageRun& run) {

@@ -29,6 +29,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/tiles.cpp
   tool/stages.cpp
   tool/train.cpp
+  tool/views_file.cpp
   tool/work_files.cpp
 )
 target_link_libraries(vsprite_precompute PUBLIC nlohmann_json::nlohmann_json PRIVATE PkgConfig::TOOL_DEPS)
@@ -40,6 +41,7 @@ add_executable(vsprite
   tool/commands/doctor.cpp
   tool/commands/doctor_film.cpp
   tool/commands/dump.cpp
+  tool/commands/fit.cpp
   tool/commands/help.cpp
   tool/commands/inspect.cpp
   tool/commands/label.cpp

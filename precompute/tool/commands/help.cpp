@@ -17,6 +17,8 @@ constexpr Verb kVerbs[] = {
      "vsprite transitions --work hamster.work --max-per-sample 50", run_transitions},
     {"solve", "FILM|PACK|--work DIR", "transitions -> cost tables of both modes",
      "vsprite solve --work hamster.work --turn-w1 1.5 --directions 16", run_solve},
+    {"fit", "VIEWS.toml", "views and control points -> puppets, in a pack or a work folder",
+     "vsprite fit face.toml -o face.vsp", run_fit},
     {"pack", "FILM|PACK|--work DIR", "all of it -> one file",
      "vsprite pack --work hamster.work -o hamster.vsp", run_pack},
     {"build", "FILM|CAST.toml",

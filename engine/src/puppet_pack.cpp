@@ -1,0 +1,353 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// The optional section PUPT (engine/PACK.md): puppets beside a sprite, written by copying a pack.
+
+#include <bit>
+#include <cmath>
+#include <set>
+
+#include "pack_format.h"
+#include "vsprite/puppet.h"
+
+namespace vsprite {
+namespace detail {
+namespace {
+
+constexpr std::uint32_t kMaxPuppets = 256;
+constexpr std::uint32_t kMaxArray = 1u << 26;  // numbers in one array
+constexpr std::uint64_t kMaxPuppetBytes = std::uint64_t{1} << 30;
+
+Error bad_pupt(const std::string& path, const std::string& what) {
+  return {ErrorCode::CorruptData, path + ": PUPT: " + what};
+}
+
+void put_real(Bytes& out, double value) { out.put(std::bit_cast<std::uint64_t>(value)); }
+
+void put_text(Bytes& out, const std::string& text) {
+  out.put(static_cast<std::uint32_t>(text.size()));
+  out.text(text);
+  out.pad_to(4);
+}
+
+void put_reals(Bytes& out, const std::vector<double>& values) {
+  out.put(static_cast<std::uint32_t>(values.size()));
+  for (const double v : values) put_real(out, v);
+}
+
+void put_points(Bytes& out, const std::vector<Vec2>& points) {
+  out.put(static_cast<std::uint32_t>(points.size()));
+  for (const Vec2 p : points) {
+    out.put(std::bit_cast<std::uint32_t>(p.x));
+    out.put(std::bit_cast<std::uint32_t>(p.y));
+  }
+}
+
+void put_network(Bytes& out, const RbfNetwork& net) {
+  out.put(static_cast<std::uint32_t>(net.kernel));
+  out.put(static_cast<std::uint32_t>(net.degree + 1));
+  out.put(static_cast<std::uint32_t>(net.dims));
+  out.put(static_cast<std::uint32_t>(net.outputs));
+  put_real(out, net.width);
+  for (const auto* array :
+       {&net.period, &net.metric, &net.centers, &net.weights, &net.polynomial, &net.hull})
+    put_reals(out, *array);
+}
+
+Result<void> put_puppet(Bytes& out, FrameCodec& codec, const Puppet& puppet) {
+  put_text(out, puppet.name);
+  out.put(static_cast<std::uint32_t>(puppet.parameters.size()));
+  for (const PuppetParameter& p : puppet.parameters) {
+    put_text(out, p.name);
+    for (const double v : {p.low, p.high, p.period}) put_real(out, v);
+  }
+  out.put(static_cast<std::uint32_t>(puppet.faces.size()));
+  for (const Face& face : puppet.faces) {
+    out.put(face.count);
+    for (const std::uint32_t c : face.corners) out.put(c);
+  }
+  put_network(out, puppet.net);
+  const bool has_map = puppet.view_map.outputs > 0;
+  out.put(static_cast<std::uint32_t>((puppet.blends ? 1 : 0) + (has_map ? 2 : 0)));
+  if (has_map) put_network(out, puppet.view_map);
+  out.put(static_cast<std::uint32_t>(puppet.views.size()));
+  for (const PuppetView& view : puppet.views) {
+    const auto packed = codec.encode(view.picture);
+    if (!packed) return packed.error();
+    put_points(out, view.points);
+    out.put(static_cast<std::uint32_t>(view.picture.width));
+    out.put(static_cast<std::uint32_t>(view.picture.height));
+    out.put(static_cast<std::uint32_t>(packed->size()));
+    out.data.insert(out.data.end(), packed->begin(), packed->end());
+    out.pad_to(4);
+  }
+  out.put(static_cast<std::uint32_t>(puppet.links.size()));
+  for (const PuppetLink& link : puppet.links) {
+    out.put(link.first);
+    out.put(link.count);
+    out.put(link.parent);
+    out.put(link.parameter);
+  }
+  put_points(out, puppet.offset);
+  put_real(out, puppet.motion);
+  return {};
+}
+
+// Takes numbers off the front; once something does not fit, everything is 0.
+class Taker {
+ public:
+  explicit Taker(std::span<const std::uint8_t> bytes) : cursor_(bytes) {}
+
+  template <class T>
+  T get() noexcept {
+    if (!fits_ || cursor_.left() < sizeof(T)) {
+      fits_ = false;
+      return T{};
+    }
+    return cursor_.get<T>();
+  }
+  double real() noexcept { return std::bit_cast<double>(get<std::uint64_t>()); }
+  /// A count of things of at least `bytes` each, checked before memory is taken.
+  std::size_t count(std::size_t bytes, std::uint32_t most = kMaxArray) noexcept {
+    const auto n = get<std::uint32_t>();
+    if (n <= most && std::uint64_t{n} * bytes <= cursor_.left()) return n;
+    fits_ = false;
+    return 0;
+  }
+  std::span<const std::uint8_t> take(std::size_t bytes) noexcept {
+    if (fits_ && bytes <= cursor_.left()) return cursor_.take(bytes);
+    fits_ = false;
+    return {};
+  }
+  std::string text() {
+    const std::size_t n = count(1, kMaxText);
+    const auto bytes = take((n + 3) / 4 * 4);
+    return fits_ ? std::string(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n)) : "";
+  }
+  std::vector<double> reals() {
+    std::vector<double> out(count(8));
+    for (double& v : out) v = real();
+    return out;
+  }
+  std::vector<Vec2> points() {
+    std::vector<Vec2> out(count(8));
+    for (Vec2& p : out) {
+      p.x = std::bit_cast<float>(get<std::uint32_t>());
+      p.y = std::bit_cast<float>(get<std::uint32_t>());
+    }
+    return out;
+  }
+  void fail() noexcept { fits_ = false; }
+  bool fits() const noexcept { return fits_; }
+  std::size_t left() const noexcept { return cursor_.left(); }
+
+ private:
+  Cursor cursor_;
+  bool fits_ = true;
+};
+
+RbfNetwork take_network(Taker& from) {
+  RbfNetwork net;
+  const auto kernel = from.get<std::uint32_t>(), degree = from.get<std::uint32_t>(),
+             dims = from.get<std::uint32_t>(), outputs = from.get<std::uint32_t>();
+  if (kernel >= kKernelCount || degree > 2 || dims > kMaxNetworkDims ||
+      outputs > 4 * kMaxNetworkDims)
+    from.fail();
+  if (!from.fits()) return net;
+  net.kernel = static_cast<Kernel>(kernel);
+  net.degree = static_cast<int>(degree) - 1;
+  net.dims = static_cast<int>(dims), net.outputs = static_cast<int>(outputs);
+  net.width = from.real();
+  for (auto* array :
+       {&net.period, &net.metric, &net.centers, &net.weights, &net.polynomial, &net.hull})
+    *array = from.reals();
+  return net;
+}
+
+PuppetView take_view(Taker& from, FrameCodec& codec) {
+  PuppetView view;
+  view.points = from.points();
+  const auto width = from.get<std::uint32_t>(), height = from.get<std::uint32_t>();
+  const std::size_t packed = from.count(1);
+  const auto bytes = from.take((packed + 3) / 4 * 4);
+  const bool sized = width >= 1 && height >= 1 && width <= 65535 && height <= 65535 &&
+                     std::uint64_t{width} * height <= kMaxPixels;
+  if (!from.fits() || !sized ||
+      !codec.decode(bytes.first(packed), static_cast<int>(width), static_cast<int>(height),
+                    view.picture))
+    from.fail();
+  return view;
+}
+
+Puppet take_puppet(Taker& from, FrameCodec& codec) {
+  Puppet puppet;
+  puppet.name = from.text();
+  puppet.parameters.resize(from.count(28, kMaxHullDims));
+  for (PuppetParameter& p : puppet.parameters) {
+    p.name = from.text();
+    p.low = from.real(), p.high = from.real(), p.period = from.real();
+  }
+  puppet.faces.resize(from.count(20));
+  for (Face& face : puppet.faces) {
+    face.count = from.get<std::uint32_t>();
+    for (std::uint32_t& c : face.corners) c = from.get<std::uint32_t>();
+  }
+  puppet.net = take_network(from);
+  const auto flags = from.get<std::uint32_t>();
+  if (flags > 3) from.fail();
+  puppet.blends = (flags & 1) != 0;
+  if ((flags & 2) != 0) puppet.view_map = take_network(from);
+  const std::size_t views = from.count(16, kMaxPuppets);
+  for (std::size_t v = 0; v < views && from.fits(); ++v)
+    puppet.views.push_back(take_view(from, codec));
+  puppet.links.resize(from.count(16, 64));
+  for (PuppetLink& link : puppet.links) {
+    link.first = from.get<std::uint32_t>(), link.count = from.get<std::uint32_t>();
+    link.parent = from.get<std::int32_t>(), link.parameter = from.get<std::uint32_t>();
+  }
+  puppet.offset = from.points();
+  puppet.motion = from.real();
+  return puppet;
+}
+
+Result<std::vector<Puppet>> read_puppets(std::span<const std::uint8_t> bytes,
+                                         const std::string& path) {
+  Taker from(bytes);
+  FrameCodec codec;
+  std::vector<Puppet> out;
+  std::set<std::string> names;
+  const std::size_t count = from.count(64, kMaxPuppets);
+  for (std::size_t k = 0; k < count; ++k) {
+    Puppet parts = take_puppet(from, codec);
+    if (!from.fits())
+      return bad_pupt(path, "puppet " + std::to_string(k) + " is cut off or holds a wrong count");
+    if (parts.name.empty() || !names.insert(parts.name).second)
+      return bad_pupt(path, "`" + parts.name + "`: names of 1 to 255 bytes are due, each once");
+    auto puppet = make_puppet(std::move(parts));
+    if (!puppet) return bad_pupt(path, puppet.error().message);
+    out.push_back(std::move(*puppet));
+  }
+  if (!from.fits()) return bad_pupt(path, "its first count does not fit its bytes");
+  if (from.left() != 0)
+    return bad_pupt(path, std::to_string(from.left()) + " bytes more than its puppets need");
+  return out;
+}
+
+Result<PackContent> read_table(const ByteSource& source) {
+  PackContent content;
+  const Check bad = read_header(source, content);
+  if (!bad) return content;
+  const bool named = bad->issue.code == "unreadable";
+  return Error{bad->error, (named ? "" : source.name() + ": ") + bad->issue.message};
+}
+
+Result<std::vector<std::uint8_t>> read_section(const ByteSource& source,
+                                               const SectionEntry& entry) {
+  if (entry.bytes > kMaxPuppetBytes)
+    return bad_pupt(source.name(), std::to_string(entry.bytes) + " bytes, at most 2^30 are due");
+  std::vector<std::uint8_t> bytes(entry.bytes);
+  if (auto read = source.read(entry.offset, bytes); !read) return read.error();
+  if (hash_bytes(bytes) != entry.sum)
+    return bad_pupt(source.name(), "its sum does not fit its bytes");
+  return bytes;
+}
+
+Result<void> copy_section(const ByteSource& source, const SectionEntry& entry, std::uint64_t to,
+                          FileWriter& file) {
+  std::vector<std::uint8_t> piece(std::min<std::uint64_t>(entry.bytes, 1 << 20));
+  for (std::uint64_t at = 0; at < entry.bytes; at += piece.size()) {
+    piece.resize(std::min<std::uint64_t>(piece.size(), entry.bytes - at));
+    if (auto read = source.read(entry.offset + at, piece); !read) return read;
+    if (auto wrote = file.write(to + at, piece); !wrote) return wrote;
+  }
+  return {};
+}
+
+Result<void> copy_with_puppets(const ByteSource& source, const std::string& to,
+                               std::span<const std::uint8_t> bytes) {
+  auto content = read_table(source);
+  if (!content) return content.error();
+  auto file = FileWriter::create(to);
+  if (!file) return file.error();
+  std::vector<SectionEntry> sections;
+  for (const SectionEntry& entry : content->sections)
+    if (entry.name != "PUPT") sections.push_back(entry);
+  std::uint64_t end = kHeaderBytes + (sections.size() + !bytes.empty()) * kEntryBytes;
+  const auto place = [&end](std::uint64_t size) {
+    const std::uint64_t at = (end + kAlignment - 1) / kAlignment * kAlignment;
+    end = at + size;
+    return at;
+  };
+  for (SectionEntry& entry : sections) {
+    const std::uint64_t at = place(entry.bytes);
+    if (auto copied = copy_section(source, entry, at, *file); !copied) return copied;
+    entry.offset = at;
+  }
+  if (!bytes.empty()) {
+    const std::uint64_t at = place(bytes.size());
+    if (auto wrote = file->write(at, bytes); !wrote) return wrote;
+    sections.push_back({"PUPT", at, bytes.size(), hash_bytes(bytes)});
+  }
+  if (auto wrote = file->write(0, header_bytes(sections, end).data); !wrote) return wrote;
+  return file->finish();
+}
+
+}  // namespace
+}  // namespace detail
+
+Result<std::vector<std::uint8_t>> encode_puppets(std::span<const Puppet> puppets) {
+  detail::Bytes out;
+  detail::FrameCodec codec;
+  out.put(static_cast<std::uint32_t>(puppets.size()));
+  for (const Puppet& puppet : puppets)
+    if (auto put = detail::put_puppet(out, codec, puppet); !put) return put.error();
+  out.pad_to(4);
+  return std::move(out.data);
+}
+
+Result<std::vector<Puppet>> decode_puppets(std::span<const std::uint8_t> bytes,
+                                           const std::string& name) {
+  try {
+    return detail::read_puppets(bytes, name);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory, name + ": out of memory while reading puppets"};
+  }
+}
+
+Result<std::vector<Puppet>> load_puppets(const std::string& path) {
+  try {
+    const auto source = detail::ByteSource::open(path);
+    if (!source) return source.error();
+    const auto content = detail::read_table(*source);
+    if (!content) return content.error();
+    for (const detail::SectionEntry& entry : content->sections) {
+      if (entry.name != "PUPT") continue;
+      const auto bytes = detail::read_section(*source, entry);
+      if (!bytes) return bytes.error();
+      return detail::read_puppets(*bytes, path);
+    }
+    return std::vector<Puppet>{};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory, path + ": out of memory while reading puppets"};
+  }
+}
+
+Result<void> save_puppets(const std::string& from, const std::string& to,
+                          std::span<const Puppet> puppets) {
+  try {
+    std::vector<std::uint8_t> bytes;
+    if (!puppets.empty()) {
+      auto encoded = encode_puppets(puppets);
+      if (!encoded) return encoded.error();
+      bytes = std::move(*encoded);
+      if (auto read = detail::read_puppets(bytes, to); !read) return read.error();
+    }
+    const auto source = detail::ByteSource::open(from);
+    if (!source) return source.error();
+    return detail::copy_with_puppets(*source, to, bytes);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory, to + ": out of memory while writing puppets"};
+  }
+}
+
+}  // namespace vsprite

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// tool/views_file.h - VIEWS.toml: the views of a character, its parameters and control points.
+//
+//     name = "face"
+//     texture = "blend"                  # views mixed, or "choose": the best one alone
+//     kernel = "thin-plate"              # all five may be left out: linear, gaussian, thin-plate,
+//     degree = 1                         # multiquadric; "none", 0 or 1
+//     width = 1.0                        # of gaussian and multiquadric, where a parameter's range
+//     ridge = 0.0                        # is 1; above 0 for noisy examples
+//     depth = [0, 0, 1]                  # of each point, larger is nearer; a view may have its own
+//     triangles = [[1, 2, 3]]            # points are counted from 1; without triangles and quads
+//     quads = [[1, 2, 3, 4]]             # the mesh is made
+//
+//     [[parameter]]
+//     name = "rotation"
+//     low = 0
+//     high = 60
+//     period = 0                         # above 0: cyclic
+//
+//     [[view]]
+//     file = "face_1.png"                # PNG with alpha, beside this file; may be left out
+//     at = [0, 0]                        # one number a parameter
+//     points = [[12.5, 40.0], [30, 41]]  # px
+//     texture_points = [[12, 40]]        # where the picture shows its parts apart
+//
+//     [[link]]                           # a limb: its angles are the parameters
+//     name = "upper"
+//     first = 1                          # its points
+//     last = 20
+//     pivot = 1                          # points: where it turns, where it points to
+//     end = 10
+//     parent = "body"                    # an earlier link
+//
+//     [[character]]                      # moved by parallel deformation
+//     name = "jayne"
+//     file = "jayne.png"
+//     points = [[10, 12]]
+//     like = 1                           # the view in the same pose
+//     modulate = false                   # true: the movement grows with the ratio of their sizes
+#pragma once
+
+#include <string>
+
+#include "synthesis/puppet_fit.h"
+
+namespace vsprite {
+
+/// `text` was read from `path`; pictures are read from beside it.
+/// Errors: BadContent (file, line, key, what is due), those of read_png, those of check_views.
+Result<ViewSet> parse_views(const std::string& text, const std::string& path);
+
+/// The puppets that `fit --work` left in a work folder, if any, into its pack.
+/// Errors: CorruptData, those of save_puppets.
+Result<void> add_puppets(const std::string& work, const std::string& pack);
+
+}  // namespace vsprite

@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "vsprite/puppet.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "vsprite/compose.h"
+#include "vsprite/random.h"
+
+namespace vsprite {
+namespace {
+
+// A network without centres: always these outputs, plus `slope` times the one parameter.
+RbfNetwork straight(std::vector<double> constant, std::vector<double> slope) {
+  RbfNetwork net;
+  net.kernel = Kernel::Gaussian, net.degree = 1, net.dims = 1;
+  net.outputs = static_cast<int>(constant.size());
+  net.polynomial = std::move(constant);
+  net.polynomial.insert(net.polynomial.end(), slope.begin(), slope.end());
+  return net;
+}
+
+Puppet still_puppet(Image picture, const std::vector<Vec2>& points, std::vector<Face> faces) {
+  Puppet puppet;
+  puppet.name = "still";
+  puppet.parameters = {{"t", 0, 1, 0}};
+  std::vector<double> out;
+  for (const Vec2 p : points) out.insert(out.end(), {double{p.x}, double{p.y}});
+  out.insert(out.end(), {0, 0});              // barycentre
+  out.insert(out.end(), points.size(), 0.0);  // depth
+  out.push_back(1);                           // share of the one view
+  puppet.net = straight(out, std::vector<double>(out.size(), 0));
+  puppet.views.push_back({std::move(picture), points, {}});
+  puppet.faces = std::move(faces);
+  return *make_puppet(std::move(puppet));
+}
+
+Image draw(const Puppet& puppet, const PuppetPose& pose, int width, int height, Vec2 at = {}) {
+  Image canvas = make_image(width, height, 0, 0, 0, 0);
+  PuppetPainter painter;
+  render_puppet(puppet, pose, painter, canvas, at);
+  return canvas;
+}
+
+PuppetPose posed(const Puppet& puppet, double t) {
+  PuppetPose pose = make_pose(puppet);
+  pose_puppet(puppet, std::array{t}, pose);
+  return pose;
+}
+
+Image speckles(int side) {
+  Image image = make_image(side, side, 0, 0, 0);
+  Random random{5};
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(random.below(256));
+  return image;
+}
+
+TEST(Puppet, DrawsItsPictureExactlyWhereNothingMoves) {
+  const Image picture = speckles(32);
+  const std::vector<Vec2> corners{{0, 0}, {32, 0}, {32, 32}, {0, 32}};
+  for (const std::vector<Face>& faces :
+       {std::vector<Face>{{{0, 1, 2, 3}, 4}}, {{{0, 1, 2}, 3}, {{0, 2, 3}, 3}}}) {
+    const Puppet puppet = still_puppet(picture, corners, faces);
+    const Image drawn = draw(puppet, posed(puppet, 0), 32, 32);
+    for (std::size_t i = 0; i < picture.rgba.size(); ++i)
+      ASSERT_NEAR(drawn.rgba[i], picture.rgba[i], 1) << i;
+  }
+}
+
+// Half-covered glass shows a pixel that two faces claim, and one that none does. Triangles and
+// quads side by side, corners moved at random.
+TEST(Puppet, HasNoCracksAndNoOverlapsAlongSharedEdges) {
+  constexpr int kCells = 6;
+  std::vector<Vec2> points;
+  std::vector<Face> faces;
+  Random random{11};
+  for (int y = 0; y <= kCells; ++y)
+    for (int x = 0; x <= kCells; ++x) {
+      const bool rim = x == 0 || y == 0 || x == kCells || y == kCells;
+      const auto jitter = [&] { return rim ? 0.0f : static_cast<float>(random.unit() * 8 - 4); };
+      points.push_back(
+          {static_cast<float>(x * 16) + jitter(), static_cast<float>(y * 16) + jitter()});
+    }
+  for (std::uint32_t y = 0; y < kCells; ++y)
+    for (std::uint32_t x = 0; x < kCells; ++x) {
+      const std::uint32_t a = y * (kCells + 1) + x, b = a + 1, c = b + kCells + 1, d = c - 1;
+      if ((x + y) % 2 == 0) {
+        faces.push_back({{a, b, c, d}, 4});
+      } else {
+        faces.push_back({{a, b, c}, 3}), faces.push_back({{a, c, d}, 3});
+      }
+    }
+  const Image glass = make_image(96, 96, 64, 64, 64, 128);
+  const Puppet puppet = still_puppet(glass, points, faces);
+  PuppetPose pose = posed(puppet, 0);
+  for (Vec2& p : pose.points) p = {3 + p.x * 0.9f + p.y * 0.05f, 2 + p.y * 0.93f};
+  const Image drawn = draw(puppet, pose, 110, 110);
+  for (int y = 8; y < 84; ++y)
+    for (int x = 14; x < 84; ++x)
+      ASSERT_EQ(drawn.rgba[static_cast<std::size_t>(4 * (y * 110 + x) + 3)], 128) << x << "," << y;
+}
+
+// The colour of a ramp tells where in the picture a canvas pixel came from.
+TEST(Puppet, MapsQuadsByTheInverseOfTheBilinearMap) {
+  Image ramp = make_image(256, 256, 0, 0, 0);
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) {
+      std::uint8_t* p = &ramp.rgba[static_cast<std::size_t>(4 * (y * 256 + x))];
+      p[0] = static_cast<std::uint8_t>(x), p[1] = static_cast<std::uint8_t>(y);
+    }
+  const Puppet puppet =
+      still_puppet(ramp, {{0, 0}, {256, 0}, {256, 256}, {0, 256}}, {{{0, 1, 2, 3}, 4}});
+  PuppetPose pose = posed(puppet, 0);
+  const std::vector<Vec2> q{{10, 20}, {170, 5}, {190, 180}, {30, 120}};
+  pose.points = q;
+  const Image drawn = draw(puppet, pose, 200, 200);
+  for (const auto& [s, t] : {std::pair{0.2f, 0.3f}, {0.5f, 0.5f}, {0.8f, 0.35f}, {0.4f, 0.9f}}) {
+    const auto mix = [&](float a, float b, float c, float d) {
+      return (1 - s) * (1 - t) * a + s * (1 - t) * b + s * t * c + (1 - s) * t * d;
+    };
+    const int x = static_cast<int>(mix(q[0].x, q[1].x, q[2].x, q[3].x)),
+              y = static_cast<int>(mix(q[0].y, q[1].y, q[2].y, q[3].y));
+    const std::uint8_t* p = &drawn.rgba[static_cast<std::size_t>(4 * (y * 200 + x))];
+    EXPECT_NEAR(p[0], 256 * s, 3);
+    EXPECT_NEAR(p[1], 256 * t, 3);
+  }
+}
+
+TEST(Puppet, HidesWhatLiesBehindPixelByPixel) {
+  Image halves = make_image(20, 10, 255, 0, 0);
+  for (int y = 0; y < 10; ++y)
+    for (int x = 10; x < 20; ++x) {
+      std::uint8_t* p = &halves.rgba[static_cast<std::size_t>(4 * (y * 20 + x))];
+      p[0] = 0, p[1] = 255;
+    }
+  const std::vector<Vec2> texture{{0, 0},  {9, 0},  {9, 10},  {0, 10},
+                                  {11, 0}, {20, 0}, {20, 10}, {11, 10}};
+  const Puppet puppet = still_puppet(halves, texture, {{{0, 1, 2, 3}, 4}, {{4, 5, 6, 7}, 4}});
+  PuppetPose pose = posed(puppet, 0);
+  for (std::size_t i = 0; i < 8; ++i)  // both on one place; red comes nearer to the right
+    pose.points[i] = {i % 4 == 1 || i % 4 == 2 ? 40.0f : 0.0f, i % 4 >= 2 ? 40.0f : 0.0f};
+  pose.depth = {0, 2, 2, 0, 1, 1, 1, 1};
+  const Image drawn = draw(puppet, pose, 40, 40);
+  const auto red = [&](int x) { return drawn.rgba[static_cast<std::size_t>(4 * (20 * 40 + x))]; };
+  EXPECT_EQ(red(8), 0);
+  EXPECT_EQ(red(32), 255);
+}
+
+TEST(Puppet, TurnsLinksAboutTheirJoints) {
+  Puppet puppet;
+  puppet.name = "arm";
+  puppet.parameters = {{"upper", -3, 3, 0}};
+  puppet.views.push_back({make_image(4, 4, 9, 9, 9), std::vector<Vec2>(6, Vec2{1, 1}), {}});
+  puppet.links = {{0, 3, -1, 0}, {3, 3, 0, 0}};
+  std::vector<double> out{0, 0, 10, 0, 10, 1, 0, 0, 5, 0, 5, 1};  // both along +x
+  out.insert(out.end(), {0, 0, 0, 0, 0, 0, 0, 0, 1});
+  out.insert(out.end(), {100, 50, 10, 0});  // shoulder; elbow at the upper link's end
+  puppet.net = straight(out, std::vector<double>(out.size(), 0));
+  const Puppet made = *make_puppet(std::move(puppet));
+  const PuppetPose pose = posed(made, std::numbers::pi / 2);
+  EXPECT_NEAR(pose.points[1].x, 100, 1e-4);
+  EXPECT_NEAR(pose.points[1].y, 60, 1e-4);
+  EXPECT_NEAR(pose.points[3].x, 100, 1e-4);
+  EXPECT_NEAR(pose.points[3].y, 60, 1e-4);
+  EXPECT_NEAR(pose.points[4].x, 95, 1e-4);
+  EXPECT_NEAR(pose.points[4].y, 60, 1e-4);
+}
+
+TEST(Puppet, ReachesWhereItCanAndPointsWhereItCannot) {
+  Random random{3};
+  for (int k = 0; k < 200; ++k) {
+    const Vec2 target{static_cast<float>(random.unit() * 400 - 200),
+                      static_cast<float>(random.unit() * 400 - 200)};
+    const ArmReach r = reach_for({0, 0}, target, 90, 70, k % 2 == 0 ? 1 : -1);
+    const double x = 90 * std::cos(r.shoulder) + 70 * std::cos(r.shoulder + r.elbow),
+                 y = 90 * std::sin(r.shoulder) + 70 * std::sin(r.shoulder + r.elbow);
+    const double far = std::hypot(target.x, target.y), due = std::clamp(far, 20.0, 160.0);
+    EXPECT_NEAR(x, target.x * due / far, 1e-3);
+    EXPECT_NEAR(y, target.y * due / far, 1e-3);
+    EXPECT_EQ(r.elbow >= 0, k % 2 == 0);
+  }
+}
+
+TEST(Puppet, ComesBackFromItsBytesAndFromNoOthers) {
+  const std::vector<Vec2> corners{{0, 0}, {32, 0}, {32, 32}, {0, 32}};
+  const Puppet puppet = still_puppet(speckles(32), corners, {{{0, 1, 2, 3}, 4}});
+  const auto bytes = encode_puppets({&puppet, 1});
+  ASSERT_TRUE(bytes);
+  const auto back = decode_puppets(*bytes, "x.vsp");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->at(0).views[0].picture.rgba, puppet.views[0].picture.rgba);
+  EXPECT_EQ(*encode_puppets(*back), *bytes);
+  for (std::size_t n = 0; n < bytes->size(); ++n)
+    ASSERT_FALSE(decode_puppets(std::span(*bytes).first(n), "x.vsp")) << n;
+  auto longer = *bytes;
+  longer.push_back(0);
+  EXPECT_FALSE(decode_puppets(longer, "x.vsp"));
+}
+
+TEST(Puppet, NamesThePartThatDoesNotFit) {
+  Puppet puppet = still_puppet(speckles(8), {{0, 0}, {8, 0}, {8, 8}}, {{{0, 1, 2}, 3}});
+  puppet.faces.push_back({{0, 1, 9}, 3});
+  const auto made = make_puppet(std::move(puppet));
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, ErrorCode::CorruptData);
+  EXPECT_NE(made.error().message.find("control point 9"), std::string::npos);
+}
+
+TEST(Hull, ClampsToTheNearestPointAndLeavesTheInsideAlone) {
+  RbfNetwork net;
+  net.dims = 2, net.outputs = 1, net.degree = -1;
+  net.hull = {0, 0, 4, 0, 4, 4, 0, 4, 2, 2};
+  const auto clamped = [&](double x, double y) {
+    std::array at{x, y};
+    clamp_to_hull(net, at);
+    return at;
+  };
+  EXPECT_EQ(clamped(1.25, 3.5), (std::array{1.25, 3.5}));
+  EXPECT_NEAR(clamped(6, 2)[0], 4, 1e-9);
+  EXPECT_NEAR(clamped(6, 2)[1], 2, 1e-9);
+  EXPECT_NEAR(clamped(-1, -3)[0], 0, 1e-9);
+  EXPECT_NEAR(clamped(-1, -3)[1], 0, 1e-9);
+  Random random{1};
+  for (int k = 0; k < 500; ++k) {  // against the box's own clamp
+    const double x = random.unit() * 12 - 4, y = random.unit() * 12 - 4;
+    EXPECT_NEAR(clamped(x, y)[0], std::clamp(x, 0.0, 4.0), 1e-7);
+    EXPECT_NEAR(clamped(x, y)[1], std::clamp(y, 0.0, 4.0), 1e-7);
+  }
+}
+
+// Two sets that overlap on [4, 6]: inside the overlap the one that answered before is kept.
+TEST(ExampleSets, KeepTheirAnswerUntilItsHullIsLeft) {
+  const auto set = [](double low, double high, std::uint32_t other) {
+    ExampleSet out;
+    out.net.dims = 1, out.net.outputs = 1, out.net.degree = -1;
+    out.net.hull = {low, high};
+    out.median = {(low + high) / 2};
+    out.joins = {other};
+    return out;
+  };
+  const std::vector<ExampleSet> sets{set(0, 6, 1), set(4, 10, 0)};
+  const auto choose = [&](double x, int before) { return choose_set(sets, std::array{x}, before); };
+  EXPECT_EQ(choose(4.5, -1), 0);
+  EXPECT_EQ(choose(5.5, 0), 0);
+  EXPECT_EQ(choose(6.5, 0), 1);
+  EXPECT_EQ(choose(4.5, 1), 1);
+  EXPECT_EQ(choose(3.5, 1), 0);
+  EXPECT_EQ(choose(12, 1), 1);
+}
+
+}  // namespace
+}  // namespace vsprite
