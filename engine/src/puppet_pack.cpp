@@ -73,12 +73,11 @@ Result<void> put_puppet(Bytes& out, FrameCodec& codec, const Puppet& puppet) {
   out.put(static_cast<std::uint32_t>(puppet.views.size()));
   for (const PuppetView& view : puppet.views) {
     const auto packed = codec.encode(view.picture);
-    if (!packed) return packed.error();
     put_points(out, view.points);
     out.put(static_cast<std::uint32_t>(view.picture.width));
     out.put(static_cast<std::uint32_t>(view.picture.height));
-    out.put(static_cast<std::uint32_t>(packed->size()));
-    out.data.insert(out.data.end(), packed->begin(), packed->end());
+    out.put(static_cast<std::uint32_t>(packed.size()));
+    out.data.insert(out.data.end(), packed.begin(), packed.end());
     out.pad_to(4);
   }
   out.put(static_cast<std::uint32_t>(puppet.links.size()));
@@ -172,10 +171,12 @@ PuppetView take_view(Taker& from, FrameCodec& codec) {
   const auto bytes = from.take((packed + 3) / 4 * 4);
   const bool sized = width >= 1 && height >= 1 && width <= 65535 && height <= 65535 &&
                      std::uint64_t{width} * height <= kMaxPixels;
-  if (!from.fits() || !sized ||
-      !codec.decode(bytes.first(packed), static_cast<int>(width), static_cast<int>(height),
-                    view.picture))
+  if (!from.fits() || !sized) {
     from.fail();
+    return view;
+  }
+  std::copy_n(bytes.begin(), packed, codec.input(packed).begin());
+  if (!codec.decode(static_cast<int>(width), static_cast<int>(height), view.picture)) from.fail();
   return view;
 }
 

@@ -75,9 +75,18 @@ Result<Session> Session::open(const SessionConfig& wanted) {
   Result<Renderer> renderer = make_renderer(config.renderer);
   if (!renderer) return std::move(renderer).error();
   auto impl = std::make_unique<Impl>(config, std::move(*window), std::move(*renderer));
+  impl->resolution = config.resolution;
+  // The size of what is drawn into memory and filmed; films want even sides.
+  const auto even = [&](int side) {
+    const auto part = static_cast<int>(std::lround(config.resolution * static_cast<float>(side)));
+    return config.resolution < 1 ? std::max(2, part / 2 * 2) : side;
+  };
+  impl->config.width = even(config.width);
+  impl->config.height = even(config.height);
   impl->script = std::move(script);
   if (film) {
-    auto opened = impl->film.open(config.record, config.width, config.height, config.fps);
+    auto opened =
+        impl->film.open(config.record, impl->config.width, impl->config.height, config.fps);
     if (!opened) return std::move(opened).error();
   }
   return Session(std::move(impl));

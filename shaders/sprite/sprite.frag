@@ -6,14 +6,16 @@
 // drivers more than the samples). With FADE two pictures are mixed before they are drawn, so that
 // what is opaque in both stays opaque. Out: linear, premultiplied.
 in vec2 texel;
-flat in vec4 picture;
 flat in vec4 own;
 flat in vec4 veil;
-flat in vec4 old;
-flat in vec4 fade;
 uniform sampler2D page;
+#if TAPS > 1 || defined(FADE)
+flat in vec4 picture;
+flat in vec4 fade;
 uniform vec2 page_size;
+#endif
 #ifdef FADE
+flat in vec4 old;
 uniform sampler2D old_page;
 uniform vec2 old_page_size;
 #endif

@@ -18,11 +18,17 @@ layout(location = 8) in vec4 shift;
 uniform vec2 frame_size;
 uniform vec2 page_size;
 out vec2 texel;  // within the picture; where one sample is taken, of the page, 0..1
+#if TAPS > 1 || defined(FADE)
 flat out vec4 picture;
+#endif
 flat out vec4 own;    // color = light own + light.a veil
 flat out vec4 veil;
-flat out vec4 old;
+#if TAPS > 1 || defined(FADE)
 flat out vec4 fade;  // shift, footprint, share
+#endif
+#ifdef FADE
+flat out vec4 old;
+#endif
 
 void main() {
   // A pixel's footprint reaches half a texel, or half a pixel where the picture is shrunk, past the edge.
@@ -45,12 +51,14 @@ void main() {
   else at = vec2(high.x - cuts.z, high.y);
   vec2 point = place.xy + axes.xy * at.x + axes.zw * at.y;
   gl_Position = vec4(2.0 * point / frame_size - 1.0, 0.0, 1.0);
-  picture = rect;
   own = vec4(tint.rgb * (1.0 - fog.a), 1.0) * tint.a;
   veil = vec4(fog.rgb * fog.a * tint.a, 0.0);
+#ifdef FADE
   old = other;
-  fade = vec4(shift.xy, place.zw);
+#endif
 #if TAPS > 1 || defined(FADE)
+  picture = rect;
+  fade = vec4(shift.xy, place.zw);
   texel = at;
 #else
   texel = (rect.xy + at) / page_size;

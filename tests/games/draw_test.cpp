@@ -113,6 +113,24 @@ TEST_F(Draw, DrawsManySpritesAsOneBatch) {
   EXPECT_EQ(renderer().stats().batches, 1u);
 }
 
+// Half red and half blue is half the light of each; where only one of them lies, half is ground.
+TEST_F(Draw, ACrossFadeMixesBeforeItCovers) {
+  const Image red = make_image(16, 16, 255, 0, 0), blue = make_image(16, 16, 0, 0, 255);
+  renderer().begin_frame(48, 32);
+  renderer().clear(srgb(0x00ff00));
+  renderer().draw_sprite({.image = red,
+                          .position = {20, 16},
+                          .anchor = {8, 8},
+                          .fade = {.image = blue, .anchor = {16, 8}, .share = 0.5f}});
+  renderer().end_frame();
+  const Image seen = renderer().read_pixels();
+  EXPECT_EQ(color_at(seen, 16, 16), 0xbc00bcu);  // both: no ground shines through
+  EXPECT_EQ(color_at(seen, 24, 16), 0xbcbc00u);  // the new one alone
+  EXPECT_EQ(color_at(seen, 6, 16), 0x00bcbcu);   // the old one alone
+  EXPECT_EQ(color_at(seen, 2, 16), 0x00ff00u);
+  EXPECT_EQ(renderer().stats().batches, 1u);
+}
+
 TEST_F(Draw, ShowsTheRightPictureAfterPagesWereEmptied) {
   open({.texture_budget = 1});
   std::vector<Image> pictures;

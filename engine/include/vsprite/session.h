@@ -30,6 +30,7 @@ struct SessionConfig {
   std::string title = "vsprite";
   int width = 1280;  ///< of the window; headless and films: of the frame, pixels
   int height = 720;
+  float resolution = 1;   ///< share of width and height that frames have at first, (0, 1]
   double fps = 30;        ///< ticks per second, Sprite::fps()
   bool headless = false;  ///< draws into memory
   bool full_screen = false;
@@ -66,7 +67,7 @@ class Session {
   double frame_ms() const noexcept;     ///< from frame to frame, smoothed
   double work_ms() const noexcept;      ///< of that, until show(), smoothed
   /// Frames of this share of the window's width and height, (0, 1], stretched over the window: for
-  /// slow machines. From the next frame on; headless runs and films keep their size.
+  /// slow machines. From the next frame on; headless runs and films keep that of the config.
   void set_resolution(float share) noexcept;
   void set_paused(bool paused) noexcept;
   bool is_paused() const noexcept;
