@@ -82,6 +82,7 @@ TEST(ReleasedPack, Version1_0IsReadForEver) {
 
 TEST(ReleasedPack, EveryTruncationAndEveryFlippedBitIsDetected) {
   testing::ByteVector bytes = testing::read_bytes(released("1.0"));
+  ASSERT_FALSE(bytes.empty());
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_FALSE(testing::verify_bytes(std::span(bytes).first(size), 1).empty()) << size;
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
