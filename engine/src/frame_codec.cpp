@@ -11,6 +11,7 @@
 #include <bit>
 #include <cassert>
 #include <cstdlib>
+#include <cstring>
 
 #include "pack_format.h"
 
@@ -154,28 +155,47 @@ Planes predict_row(const Image& image, int y, std::span<const Run> runs, bool is
   return planes;
 }
 
-// Bits of the value with sign, at least 0: -1..0 need 1 and 0.
-unsigned bits_of(int value) {
-  return value == 0 ? 0 : 1 + std::bit_width(static_cast<unsigned>(value < 0 ? ~value : value));
-}
+// Bits of a value with its sign: 0 needs none, -1 one, 1 and -2 two.
+constexpr std::array<std::uint8_t, 256> kBitsOf = [] {
+  std::array<std::uint8_t, 256> bits{};
+  for (unsigned v = 1; v < 256; ++v)
+    bits[v] = static_cast<std::uint8_t>(1 + std::bit_width(v < 128 ? v : 255 - v));
+  return bits;
+}();
+
+unsigned bits_of(int value) { return kBitsOf[static_cast<std::uint8_t>(value)]; }
 
 unsigned row_price(const Planes& planes) {
   unsigned price = 0;
   for (std::size_t i = 0; i < planes[0].size(); ++i) {
     const int green = planes[kGreen][i];
-    price += bits_of(planes[kAlpha][i]) + bits_of(green) + bits_of(wrap(planes[kRed][i] - green)) +
-             bits_of(wrap(planes[kBlue][i] - green));
+    price += bits_of(planes[kAlpha][i]) + bits_of(green) + bits_of(planes[kRed][i] - green) +
+             bits_of(planes[kBlue][i] - green);
   }
   return price;
 }
 
-// The code of the least width that holds the block's residuals.
+// The code of the least width of at least so many bits.
+constexpr std::array<std::uint8_t, 9> kCodeOf = [] {
+  std::array<std::uint8_t, 9> codes{};
+  for (std::size_t bits = 0; bits < codes.size(); ++bits)
+    while (kWidths[codes[bits]] < bits) ++codes[bits];
+  return codes;
+}();
+
+// The code of the least width that holds the block's residuals: bits_of the widest, all at once.
 unsigned block_code(std::span<const std::int8_t> block) {
-  unsigned bits = 0;
-  for (const std::int8_t value : block) bits = std::max(bits, bits_of(value));
-  unsigned code = 0;
-  while (kWidths[code] < bits) ++code;
-  return code;
+  static_assert(kBlock == 8);
+  std::uint64_t values = 0;
+  if (block.size() == kBlock)
+    std::memcpy(&values, block.data(), kBlock);
+  else
+    std::memcpy(&values, block.data(), block.size());
+  const std::uint64_t negative = (values >> 7) & 0x0101010101010101u;
+  std::uint64_t folded = values ^ (negative * 0xFF);  // v or ~v
+  folded |= folded >> 32, folded |= folded >> 16, folded |= folded >> 8;
+  const auto bits = values == 0 ? 0u : 1u + static_cast<unsigned>(std::bit_width(folded & 0xFF));
+  return kCodeOf[bits];
 }
 
 std::span<const std::int8_t> block_of(const Plane& plane, std::size_t b) {
@@ -190,26 +210,26 @@ std::size_t plane_price(const Plane& plane) {
 }
 
 // What is left of a colour beyond its share of alpha (and of green).
-Plane residue(const Plane& color, const Plane& alpha, const Plane* green, int factor) {
-  Plane rest(color.size());
+void take_residue(const Plane& color, const Plane& alpha, const Plane* green, int factor,
+                  Plane& rest) {
+  rest.resize(color.size());
   for (std::size_t i = 0; i < rest.size(); ++i) {
     const int predicted = (alpha[i] * factor >> kFactorShift) + (green ? (*green)[i] : 0);
     rest[i] = wrap(color[i] - predicted);
   }
-  return rest;
 }
 
 // Replaces the channel by what is left of it at the best factor, which is returned.
 std::int8_t decouple(Plane& color, const Plane& alpha, const Plane* green) {
-  Plane best;
+  Plane rest, best;
   int best_factor = 0;
   std::size_t least = ~std::size_t{0};
   for (int factor = green ? -kMaxFactor : 0; factor <= kMaxFactor; ++factor) {
-    Plane rest = residue(color, alpha, green, factor);
+    take_residue(color, alpha, green, factor, rest);
     const std::size_t price = plane_price(rest);
     if (price >= least) continue;
     least = price;
-    best = std::move(rest);
+    std::swap(best, rest);
     best_factor = factor;
   }
   color = std::move(best);
