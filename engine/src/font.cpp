@@ -93,7 +93,7 @@ constexpr std::array<std::string_view, 95> kAscii = {
     "0023",                              // `
     "@06868g0g 868g",                    // a
     "000g @06868g0g",                    // b
-    "~8976060g7g8d",                     // c
+    "~7766060g6g7f",                     // c
     "808g @06868g0g",                    // d
     "0b8b ~8b86060g7g8e",                // e
     "~6020252g 0656",                    // f

@@ -36,7 +36,8 @@ struct Page {
 Page make_page(const Renderer& renderer) {
   Page page;
   const View view = make_view(renderer.width(), renderer.height());
-  page.scale = std::clamp(view.scale, 0.60f, 4.0f);
+  const float least = std::clamp(static_cast<float>(renderer.height()) / 500, 0.60f, 0.80f);
+  page.scale = std::clamp(view.scale, least, 4.0f);
   page.width = static_cast<float>(renderer.width()) / page.scale;
   page.height = static_cast<float>(renderer.height()) / page.scale;
   return page;
@@ -212,15 +213,16 @@ void draw_end(Renderer& renderer, const Page& page, const Moment& moment, const 
   text(renderer, "swim again", {c.x - 26, c.y + 115}, 23, faded(kInk, in));
 }
 
-void draw_pause(Renderer& renderer, const Page& page) {
+// `low`: the keys stand below what else is shown.
+void draw_pause(Renderer& renderer, const Page& page, bool low) {
   dim(renderer, page, 0.40f);
   const Vec2 c{page.width / 2, page.height * 0.46f};
   renderer.draw_shape(vsprite::disc(c, 66, kGlass));
   for (const float side : {-1.0f, 1.0f})
     renderer.draw_shape(
         vsprite::box({c.x + side * 18 - 9, c.y - 30}, {c.x + side * 18 + 9, c.y + 30}, kInk, 5));
-  text(renderer, "P  go on      Esc  quit      M  sound      F11  full screen", {c.x, c.y + 122}, 24,
-       faded(kInk, 0.9f), Align::Center);
+  text(renderer, "P  go on      Esc  quit      M  sound      F11  full screen",
+       {c.x, low ? page.height - 56 : c.y + 122}, 24, faded(kInk, 0.9f), Align::Center);
 }
 
 void draw_speaker_off(Renderer& renderer, const Page& page) {
@@ -332,7 +334,7 @@ void draw_hud(Renderer& renderer, const Moment& moment, const HudState& state, Q
   }
   draw_key_hints(renderer, page, moment, state);
   if (world.phase == Phase::Over) draw_end(renderer, page, moment, state);
-  if (world.paused) draw_pause(renderer, page);
+  if (world.paused) draw_pause(renderer, page, state.overlay);
   if (state.muted) draw_speaker_off(renderer, page);
   if (state.overlay) draw_overlay(renderer, moment, state, quality);
   renderer.set_camera({});

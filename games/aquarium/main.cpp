@@ -132,9 +132,11 @@ class Game {
   }
 
   void tick() {
-    const std::uint32_t before = world_.fish[0].actor.sample;
+    const vsprite::Actor before = world_.fish[0].actor;
     step(sprite_, world_, read_input());
-    hud_.transition_cost = vsprite::shown_cost(sprite_, before, world_.fish[0].actor);
+    const vsprite::Actor& after = world_.fish[0].actor;
+    if (after.tick != before.tick)  // a pause shows the last one
+      hud_.transition_cost = vsprite::shown_cost(sprite_, before.sample, after);
     const auto now = static_cast<float>(session_.seconds());
     scene_.notice(world_, now);
     sound_.notice(world_);
