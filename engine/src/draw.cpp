@@ -401,6 +401,7 @@ void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, co
   s.key = {reinterpret_cast<std::uintptr_t>(&sprite.data()), actor.sample};
   if (!renderer.is_cached(s.key)) s.image = frames.frame(actor.sample);
   renderer.draw_sprite(s);
+  frames.look_ahead(actor);
 }
 
 }  // namespace vsprite

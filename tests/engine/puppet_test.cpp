@@ -118,7 +118,8 @@ TEST(Puppet, MapsQuadsByTheInverseOfTheBilinearMap) {
   const std::vector<Vec2> q{{10, 20}, {170, 5}, {190, 180}, {30, 120}};
   pose.points = q;
   const Image drawn = draw(puppet, pose, 200, 200);
-  for (const auto& [s, t] : {std::pair{0.2f, 0.3f}, {0.5f, 0.5f}, {0.8f, 0.35f}, {0.4f, 0.9f}}) {
+  for (const Vec2 at : {Vec2{0.2f, 0.3f}, {0.5f, 0.5f}, {0.8f, 0.35f}, {0.4f, 0.9f}}) {
+    const float s = at.x, t = at.y;
     const auto mix = [&](float a, float b, float c, float d) {
       return (1 - s) * (1 - t) * a + s * (1 - t) * b + s * t * c + (1 - s) * t * d;
     };

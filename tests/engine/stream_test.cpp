@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "pack_format.h"
 #include "support/temp_folder.h"
 #include "support/tiny_sprite.h"
@@ -76,6 +79,56 @@ TEST_F(FrameCacheTest, ADamagedPictureIsReplacedByTheLastGoodOneAndCounted) {
     EXPECT_EQ(copy(cache.frame(last)), good);
     EXPECT_EQ(copy(cache.frame(last)), good);
     EXPECT_EQ(cache.stats().damaged, 3u);
+  }
+}
+
+// The next sample, however long this one is shown.
+void step_on(const Sprite& sprite, Actor& actor) {
+  const std::uint32_t before = actor.sample;
+  for (int tick = 0; tick < 32 && actor.sample == before; ++tick) step(sprite, actor);
+}
+
+TEST_F(FrameCacheTest, WhatAnActorWillShowIsThereBeforeItIsAskedFor) {
+  const Sprite sprite = load();
+  FrameCache cache(sprite);
+  Actor actor = make_actor(sprite);
+  set_direction(sprite, actor, Direction::Right);
+  std::uint64_t before = ~std::uint64_t{0};
+  for (int i = 0; i < 200 && cache.stats().ahead != before; ++i) {  // until nothing new comes
+    before = cache.stats().ahead > 0 ? cache.stats().ahead : before;
+    cache.look_ahead(actor);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    cache.look_ahead(actor);
+  }
+  if (cache.stats().ahead == 0) GTEST_SKIP() << "built without threads";
+  Actor turned = actor;
+  set_direction(sprite, turned, Direction::Down);  // no command before said so
+  for (Actor* a : {&actor, &turned}) {
+    step_on(sprite, *a);
+    Image due = testing::tiny_picture(sprite.data(), a->sample);
+    premultiply(due);
+    EXPECT_EQ(copy(cache.frame(a->sample)), due.rgba);
+  }
+  EXPECT_EQ(cache.stats().misses, 0u);
+}
+
+TEST_F(FrameCacheTest, LooksAheadWithinItsBudgetAndEndsInTheMiddleOfIt) {
+  const Sprite sprite = load();
+  const std::size_t budget = 10'000;  // five pictures
+  for (int round = 0; round < 50; ++round) {
+    FrameCache cache(sprite, budget);
+    Actor actor = make_actor(sprite);
+    for (int tick = 0; tick < 40; ++tick) {
+      set_direction(sprite, actor, static_cast<Direction>((tick / 5 + round) % 8));
+      step(sprite, actor);
+      cache.look_ahead(actor);
+      Image due = testing::tiny_picture(sprite.data(), actor.sample);
+      premultiply(due);
+      const ImageView view = cache.frame(actor.sample);
+      cache.look_ahead(actor);
+      ASSERT_EQ(copy(view), due.rgba);  // still there
+      ASSERT_LE(cache.stats().bytes, budget);
+    }
   }
 }
 
