@@ -7,7 +7,7 @@
 
 #include <set>
 
-#include "pack_format.h"
+#include "pack_copy.h"
 
 namespace vsprite {
 namespace detail {
@@ -19,20 +19,6 @@ constexpr std::size_t kClipBytes = 24;  // before the name
 
 Error bad_clip(const std::string& path, const std::string& what) {
   return {ErrorCode::CorruptData, path + ": CLIP: " + what};
-}
-
-Result<PackContent> read_table(const ByteSource& source) {
-  PackContent content;
-  const Check bad = read_header(source, content);
-  if (!bad) return content;
-  const bool named = bad->issue.code == "unreadable";
-  return Error{bad->error, (named ? "" : source.name() + ": ") + bad->issue.message};
-}
-
-const SectionEntry* find_clips(const PackContent& content) {
-  for (const SectionEntry& entry : content.sections)
-    if (entry.name == "CLIP") return &entry;
-  return nullptr;
 }
 
 Bytes clip_bytes(std::span<const PackClip> clips) {
@@ -92,63 +78,19 @@ Result<void> check_clips(const std::string& path, std::span<const PackClip> clip
   return {};
 }
 
-// Copies a section's bytes to `end`, in pieces.
-Result<void> copy_section(const ByteSource& source, const SectionEntry& entry, std::uint64_t to,
-                          FileWriter& file) {
-  std::vector<std::uint8_t> piece(std::min<std::uint64_t>(entry.bytes, 1 << 20));
-  for (std::uint64_t at = 0; at < entry.bytes; at += piece.size()) {
-    piece.resize(std::min<std::uint64_t>(piece.size(), entry.bytes - at));
-    if (auto read = source.read(entry.offset + at, piece); !read) return read;
-    if (auto wrote = file.write(to + at, piece); !wrote) return wrote;
-  }
-  return {};
-}
-
-Result<void> copy_with_clips(const ByteSource& source, const std::string& to,
-                             std::span<const PackClip> clips) {
-  auto content = read_table(source);
-  if (!content) return content.error();
-  auto file = FileWriter::create(to);
-  if (!file) return file.error();
-  std::vector<SectionEntry> sections;
-  for (const SectionEntry& entry : content->sections)
-    if (entry.name != "CLIP") sections.push_back(entry);
-  const Bytes bytes = clip_bytes(clips);
-  std::uint64_t end = kHeaderBytes + (sections.size() + !clips.empty()) * kEntryBytes;
-  // The gaps between sections are zeros: a hole in a new file reads as such.
-  const auto place = [&end](std::uint64_t size) {
-    const std::uint64_t at = (end + kAlignment - 1) / kAlignment * kAlignment;
-    end = at + size;
-    return at;
-  };
-  for (SectionEntry& entry : sections) {
-    const std::uint64_t at = place(entry.bytes);
-    if (auto copied = copy_section(source, entry, at, *file); !copied) return copied;
-    entry.offset = at;
-  }
-  if (!clips.empty()) {
-    const std::uint64_t at = place(bytes.data.size());
-    if (auto wrote = file->write(at, bytes.data); !wrote) return wrote;
-    sections.push_back({"CLIP", at, bytes.data.size(), hash_bytes(bytes.data)});
-  }
-  if (auto wrote = file->write(0, header_bytes(sections, end).data); !wrote) return wrote;
-  return file->finish();
-}
-
 Result<std::vector<PackClip>> read_clips(const ByteSource& source, const Sprite& sprite) {
   const std::string& path = source.name();
   const auto content = read_table(source);
   if (!content) return content.error();
   std::vector<PackClip> clips;
-  const SectionEntry* entry = find_clips(*content);
+  const SectionEntry* entry = find_section(*content, "CLIP");
   if (entry == nullptr) return clips;
   constexpr std::uint64_t kMost = std::uint64_t{1} << 30;
   if (entry->bytes < 8 || entry->bytes > kMost)
     return bad_clip(path, std::to_string(entry->bytes) + " bytes: 8 to 2^30 are due");
-  std::vector<std::uint8_t> bytes(entry->bytes);
-  if (auto read = source.read(entry->offset, bytes); !read) return read.error();
-  if (hash_bytes(bytes) != entry->sum) return bad_clip(path, "its sum does not fit its bytes");
-  Cursor cursor(bytes);
+  const auto bytes = read_section(source, *entry);
+  if (!bytes) return bytes.error();
+  Cursor cursor(*bytes);
   const auto count = cursor.get<std::uint32_t>();
   cursor.get<std::uint32_t>();
   for (std::size_t k = 0; k < count; ++k) {
@@ -183,7 +125,9 @@ Result<void> save_clips(const std::string& from, const std::string& to,
     if (auto checked = detail::check_clips(to, clips, sprite->samples()); !checked) return checked;
     const auto source = detail::ByteSource::open(from);
     if (!source) return source.error();
-    return detail::copy_with_clips(*source, to, clips);
+    detail::Bytes bytes;
+    if (!clips.empty()) bytes = detail::clip_bytes(clips);
+    return detail::copy_with_section(*source, to, "CLIP", bytes.data);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, to + ": out of memory while writing clips"};
   }

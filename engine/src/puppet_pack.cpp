@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "pack_format.h"
+#include "pack_copy.h"
 #include "vsprite/puppet.h"
 
 namespace vsprite {
@@ -234,65 +234,6 @@ Result<std::vector<Puppet>> read_puppets(std::span<const std::uint8_t> bytes,
   return out;
 }
 
-Result<PackContent> read_table(const ByteSource& source) {
-  PackContent content;
-  const Check bad = read_header(source, content);
-  if (!bad) return content;
-  const bool named = bad->issue.code == "unreadable";
-  return Error{bad->error, (named ? "" : source.name() + ": ") + bad->issue.message};
-}
-
-Result<std::vector<std::uint8_t>> read_section(const ByteSource& source,
-                                               const SectionEntry& entry) {
-  if (entry.bytes > kMaxPuppetBytes)
-    return bad_pupt(source.name(), std::to_string(entry.bytes) + " bytes, at most 2^30 are due");
-  std::vector<std::uint8_t> bytes(entry.bytes);
-  if (auto read = source.read(entry.offset, bytes); !read) return read.error();
-  if (hash_bytes(bytes) != entry.sum)
-    return bad_pupt(source.name(), "its sum does not fit its bytes");
-  return bytes;
-}
-
-Result<void> copy_section(const ByteSource& source, const SectionEntry& entry, std::uint64_t to,
-                          FileWriter& file) {
-  std::vector<std::uint8_t> piece(std::min<std::uint64_t>(entry.bytes, 1 << 20));
-  for (std::uint64_t at = 0; at < entry.bytes; at += piece.size()) {
-    piece.resize(std::min<std::uint64_t>(piece.size(), entry.bytes - at));
-    if (auto read = source.read(entry.offset + at, piece); !read) return read;
-    if (auto wrote = file.write(to + at, piece); !wrote) return wrote;
-  }
-  return {};
-}
-
-Result<void> copy_with_puppets(const ByteSource& source, const std::string& to,
-                               std::span<const std::uint8_t> bytes) {
-  auto content = read_table(source);
-  if (!content) return content.error();
-  auto file = FileWriter::create(to);
-  if (!file) return file.error();
-  std::vector<SectionEntry> sections;
-  for (const SectionEntry& entry : content->sections)
-    if (entry.name != "PUPT") sections.push_back(entry);
-  std::uint64_t end = kHeaderBytes + (sections.size() + !bytes.empty()) * kEntryBytes;
-  const auto place = [&end](std::uint64_t size) {
-    const std::uint64_t at = (end + kAlignment - 1) / kAlignment * kAlignment;
-    end = at + size;
-    return at;
-  };
-  for (SectionEntry& entry : sections) {
-    const std::uint64_t at = place(entry.bytes);
-    if (auto copied = copy_section(source, entry, at, *file); !copied) return copied;
-    entry.offset = at;
-  }
-  if (!bytes.empty()) {
-    const std::uint64_t at = place(bytes.size());
-    if (auto wrote = file->write(at, bytes); !wrote) return wrote;
-    sections.push_back({"PUPT", at, bytes.size(), hash_bytes(bytes)});
-  }
-  if (auto wrote = file->write(0, header_bytes(sections, end).data); !wrote) return wrote;
-  return file->finish();
-}
-
 }  // namespace
 }  // namespace detail
 
@@ -321,13 +262,13 @@ Result<std::vector<Puppet>> load_puppets(const std::string& path) {
     if (!source) return source.error();
     const auto content = detail::read_table(*source);
     if (!content) return content.error();
-    for (const detail::SectionEntry& entry : content->sections) {
-      if (entry.name != "PUPT") continue;
-      const auto bytes = detail::read_section(*source, entry);
-      if (!bytes) return bytes.error();
-      return detail::read_puppets(*bytes, path);
-    }
-    return std::vector<Puppet>{};
+    const detail::SectionEntry* entry = detail::find_section(*content, "PUPT");
+    if (entry == nullptr) return std::vector<Puppet>{};
+    if (entry->bytes > detail::kMaxPuppetBytes)
+      return detail::bad_pupt(path, std::to_string(entry->bytes) + " bytes, at most 2^30 are due");
+    const auto bytes = detail::read_section(*source, *entry);
+    if (!bytes) return bytes.error();
+    return detail::read_puppets(*bytes, path);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, path + ": out of memory while reading puppets"};
   }
@@ -345,7 +286,7 @@ Result<void> save_puppets(const std::string& from, const std::string& to,
     }
     const auto source = detail::ByteSource::open(from);
     if (!source) return source.error();
-    return detail::copy_with_puppets(*source, to, bytes);
+    return detail::copy_with_section(*source, to, "PUPT", bytes);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, to + ": out of memory while writing puppets"};
   }

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+#include "pack_copy.h"
+
+namespace vsprite::detail {
+namespace {
+
+// Copies a section's bytes to `to`, in pieces.
+Result<void> copy_section(const ByteSource& source, const SectionEntry& entry, std::uint64_t to,
+                          FileWriter& file) {
+  std::vector<std::uint8_t> piece(std::min<std::uint64_t>(entry.bytes, 1 << 20));
+  for (std::uint64_t at = 0; at < entry.bytes; at += piece.size()) {
+    piece.resize(std::min<std::uint64_t>(piece.size(), entry.bytes - at));
+    if (auto read = source.read(entry.offset + at, piece); !read) return read;
+    if (auto wrote = file.write(to + at, piece); !wrote) return wrote;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PackContent> read_table(const ByteSource& source) {
+  PackContent content;
+  const Check bad = read_header(source, content);
+  if (!bad) return content;
+  const bool named = bad->issue.code == "unreadable";
+  return Error{bad->error, (named ? "" : source.name() + ": ") + bad->issue.message};
+}
+
+const SectionEntry* find_section(const PackContent& content, std::string_view name) {
+  for (const SectionEntry& entry : content.sections)
+    if (entry.name == name) return &entry;
+  return nullptr;
+}
+
+Result<std::vector<std::uint8_t>> read_section(const ByteSource& source,
+                                               const SectionEntry& entry) {
+  std::vector<std::uint8_t> bytes(entry.bytes);
+  if (auto read = source.read(entry.offset, bytes); !read) return read.error();
+  if (hash_bytes(bytes) != entry.sum)
+    return Error{ErrorCode::CorruptData,
+                 source.name() + ": " + entry.name + ": its sum does not fit its bytes"};
+  return bytes;
+}
+
+Result<void> copy_with_section(const ByteSource& source, const std::string& to,
+                               const std::string& name, std::span<const std::uint8_t> bytes) {
+  auto content = read_table(source);
+  if (!content) return content.error();
+  auto file = FileWriter::create(to);
+  if (!file) return file.error();
+  std::vector<SectionEntry> sections;
+  for (const SectionEntry& entry : content->sections)
+    if (entry.name != name) sections.push_back(entry);
+  std::uint64_t end = kHeaderBytes + (sections.size() + !bytes.empty()) * kEntryBytes;
+  // The gaps between sections are zeros: a hole in a new file reads as such.
+  const auto place = [&end](std::uint64_t size) {
+    const std::uint64_t at = (end + kAlignment - 1) / kAlignment * kAlignment;
+    end = at + size;
+    return at;
+  };
+  for (SectionEntry& entry : sections) {
+    const std::uint64_t at = place(entry.bytes);
+    if (auto copied = copy_section(source, entry, at, *file); !copied) return copied;
+    entry.offset = at;
+  }
+  if (!bytes.empty()) {
+    const std::uint64_t at = place(bytes.size());
+    if (auto wrote = file->write(at, bytes); !wrote) return wrote;
+    sections.push_back({name, at, bytes.size(), hash_bytes(bytes)});
+  }
+  if (auto wrote = file->write(0, header_bytes(sections, end).data); !wrote) return wrote;
+  return file->finish();
+}
+
+}  // namespace vsprite::detail
