@@ -60,6 +60,11 @@ Finding finding(std::string_view code, std::string_view section, std::uint64_t o
 /// Meaning, not bytes: every index, order and range that playing relies on. The section and the
 /// offset of the finding name the section of a pack; offset is 0.
 Check check_sprite_data(const SpriteData& data);
+/// True if `to` is the film's own continuation of `from`. Pre: both < N.
+bool is_natural(const SpriteData& data, std::uint32_t from, std::uint32_t to) noexcept;
+/// The entry of a jump, or null. Pre: both < N.
+const Transition* find_transition(const SpriteData& data, std::uint32_t from,
+                                  std::uint32_t to) noexcept;
 /// What is not in a file but follows from it. May throw std::bad_alloc.
 void complete(Sprite::Impl& impl);
 /// What a pack asks for beyond that: a picture for every kept sample.

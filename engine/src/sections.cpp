@@ -68,12 +68,7 @@ Check check_optional(const SpriteData& data) {
 }
 
 bool leads(const SpriteData& data, std::uint32_t a, std::uint32_t b) noexcept {
-  if (b == a + 1 && data.samples[a].clip == data.samples[b].clip) return true;
-  const auto* first = data.transitions.data() + data.row_start[a];
-  const auto* last = data.transitions.data() + data.row_start[a + 1];
-  const auto* found = std::lower_bound(
-      first, last, b, [](const Transition& t, std::uint32_t sample) { return t.to < sample; });
-  return found != last && found->to == b;
+  return is_natural(data, a, b) || find_transition(data, a, b) != nullptr;
 }
 
 bool is_first(const SpriteData& data, std::uint32_t sample) noexcept {

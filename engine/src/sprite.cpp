@@ -15,23 +15,24 @@
 
 namespace vsprite {
 namespace detail {
-namespace {
 
-bool is_natural(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
+bool is_natural(const SpriteData& data, std::uint32_t from, std::uint32_t to) noexcept {
   return to == from + 1 && data.samples[to].clip == data.samples[from].clip;
 }
 
-bool is_skip(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
-  return to == from + 2 && std::isfinite(data.samples[from].skip_cost);
-}
-
-// The CSR entry of a jump, or null.
-const Transition* find_transition(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
+const Transition* find_transition(const SpriteData& data, std::uint32_t from,
+                                  std::uint32_t to) noexcept {
   const auto* first = data.transitions.data() + data.row_start[from];
   const auto* last = data.transitions.data() + data.row_start[from + 1];
   const auto* found = std::lower_bound(
       first, last, to, [](const Transition& t, std::uint32_t sample) { return t.to < sample; });
   return found != last && found->to == to ? found : nullptr;
+}
+
+namespace {
+
+bool is_skip(const SpriteData& data, std::uint32_t from, std::uint32_t to) {
+  return to == from + 2 && std::isfinite(data.samples[from].skip_cost);
 }
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
