@@ -128,8 +128,9 @@ void FrameCache::Impl::take_over() {
   thread->take(ready);
   while (!ready.empty()) {
     const std::uint32_t sample = ready.front().sample;
-    asked.erase(sample);
-    if (ready.front().image.width == 0 || by_sample.contains(sample)) {
+    const bool is_good = ready.front().image.width > 0;
+    if (is_good) asked.erase(sample);  // what cannot be decoded is not asked for again
+    if (!is_good || by_sample.contains(sample)) {
       ready.pop_front();
       continue;
     }

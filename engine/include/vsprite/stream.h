@@ -35,7 +35,7 @@ struct FrameCacheStats {
 /// Borrows the Sprite, which must outlive it. To be called by one thread at a time.
 class FrameCache {
  public:
-  /// `budget` in bytes of RGBA; at least the two newest pictures are always held.
+  /// `budget` in bytes of RGBA; the two pictures handed out last are always held.
   FrameCache(const Sprite& sprite, std::size_t budget = std::size_t{64} << 20);
   ~FrameCache();
   FrameCache(const FrameCache&) = delete;
@@ -44,9 +44,9 @@ class FrameCache {
   /// The premultiplied picture, decoded if need be; empty only if no good one was ever decoded.
   /// Valid until the next call but one. Pre: sample < N.
   ImageView frame(std::uint32_t sample) noexcept;
-  /// Has the pictures decoded that the actor may show within the next samples. Call it after a
-  /// step, or once a drawn frame. Cost: some sixty steps, no decoding; the first call starts the
-  /// thread.
+  /// Has the pictures decoded that the actor shows next, under the present and any other command.
+  /// Call it after a step, or once a drawn frame. Cost: some twenty steps, no decoding; the first
+  /// call starts the thread.
   void look_ahead(const Actor& actor) noexcept;
   const FrameCacheStats& stats() const noexcept;
 
