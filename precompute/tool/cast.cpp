@@ -11,7 +11,6 @@
 
 #include "film/match.h"
 #include "film/source.h"
-#include "tool/cast_file.h"
 
 namespace vsprite {
 namespace {
@@ -31,16 +30,6 @@ struct Member {
   MeanColor color;
   Matching matching;
 };
-
-Settings settings_of(const Settings& settings, const CastClip& clip) {
-  Settings own = settings;
-  if (!clip.key.empty()) own.key = clip.key;
-  if (!clip.subject.empty()) own.subject = clip.subject;
-  own.matte = clip.matte;
-  if (clip.fps > 0) own.fps = clip.fps;
-  own.mirror = false;  // mirrored samples are made when all are numbered
-  return own;
-}
 
 std::string folder_of(std::size_t index, const CastClip& clip) {
   std::string digits = std::to_string(index);
@@ -89,7 +78,7 @@ Result<Member> segment_member(StageRun& run, const CastClip& clip, std::size_t i
   auto project = Project::open(folder, true);
   if (!project) return project.error();
   Member member{&clip, std::move(*project), {}, {}, {}, {}, {}};
-  const Settings own = settings_of(run.settings, clip);
+  const Settings own = clip_settings(run.settings, clip);
   StageListener listener;
   const std::string name = clip.tag.empty() ? clip.file : clip.tag;
   if (run.listener.note)
@@ -297,6 +286,16 @@ Json cast_result(const StageRun& run, const std::vector<Member>& members, const 
 
 }  // namespace
 
+Settings clip_settings(const Settings& settings, const CastClip& clip) {
+  Settings own = settings;
+  if (!clip.key.empty()) own.key = clip.key;
+  if (!clip.subject.empty()) own.subject = clip.subject;
+  own.matte = clip.matte;
+  if (clip.fps > 0) own.fps = clip.fps;
+  own.mirror = false;  // mirrored samples are made when all are numbered
+  return own;
+}
+
 Result<StageKey> cast_key(StageRun& run) {
   const auto clips = read_cast(run.film);
   if (!clips) return clips.error();
@@ -312,7 +311,7 @@ Result<StageKey> cast_key(StageRun& run) {
     if (clip.mirror) entry["mirror"] = *clip.mirror;
     if (clip.velocity) entry["velocity"] = *clip.velocity;
     if (!clip.matte.empty()) entry["matte"] = true;
-    const Settings own = settings_of(run.settings, clip);
+    const Settings own = clip_settings(run.settings, clip);
     if (is_picture_source(clip.path)) entry["fps"] = own.fps;
     if (!clip.events.empty()) entry["events"] = events_json(clip);
     key.settings["cast"].push_back(std::move(entry));

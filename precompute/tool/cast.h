@@ -11,9 +11,13 @@
 
 #include <string>
 
+#include "tool/cast_file.h"
 #include "tool/stages.h"
 
 namespace vsprite {
+
+/// What a clip is segmented with: the settings, and over them what the cast says of it.
+Settings clip_settings(const Settings& settings, const CastClip& clip);
 
 /// What the stage depends on. Errors: those of read_cast and hash_source, and BadSetting (--matte).
 Result<StageKey> cast_key(StageRun& run);

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <set>
 
-#include "tool/cast_file.h"
+#include "tool/cast.h"
 #include "tool/commands/verbs.h"
 #include "tool/pictures.h"
 #include "tool/project.h"
@@ -207,12 +207,8 @@ void check_films(const Settings& settings, const std::string& path, Findings& fi
   }
   measures = Json::array();
   for (const CastClip& clip : *clips) {
-    Settings own = settings;
-    if (!clip.key.empty()) own.key = clip.key;
-    if (clip.fps > 0) own.fps = clip.fps;
-    own.matte = clip.matte;
     Json one;
-    check_film(own, clip.path, findings, one);
+    check_film(clip_settings(settings, clip), clip.path, findings, one);
     measures.push_back(std::move(one));
   }
 }
