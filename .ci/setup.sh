@@ -5,7 +5,7 @@
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build="$here/build/release"
 
-play_packages="g++ cmake ninja-build pkg-config libsdl2-dev libepoxy-dev libpng-dev libzstd-dev
+play_packages="g++ cmake ninja-build pkg-config libsdl2-dev libgl-dev libpng-dev libzstd-dev
   libxxhash-dev libavformat-dev libavcodec-dev libswscale-dev libeigen3-dev libtbb-dev libhwy-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libimgui-dev fonts-dejavu-core ffmpeg"
 test_packages="$play_packages libgtest-dev liblinear-dev strace xvfb xauth xdotool"

@@ -14,13 +14,15 @@ forbid() {
 src() { find "$@" -name '*.h' -o -name '*.cpp' | sort; }
 forbid 'libav|libsw|film/|similarity/|control/|synthesis/|tool/|window/|Eigen|nlohmann|CLI|spdlog|toml|tbb' $(src engine)
 forbid 'SDL|epoxy|GL|png|zstd|xxh|hwy' $(find engine/include -name '*.h' ! -name sdl.h)
-forbid 'SDL|epoxy|GL' $(find engine/src -name '*.cpp' ! -name draw.cpp ! -name gl.cpp ! -name sdl.cpp -o -name '*.h' -path '*engine/src*')
+forbid 'SDL|vsprite/sdl' $(src engine/src | grep -vx engine/src/sdl.cpp)
+forbid 'GL' $(src engine/src | grep -vx engine/src/gl.cpp)
+forbid 'epoxy' $(src engine precompute games)
 forbid 'png\.h' $(find engine/src precompute games -name '*.cpp' ! -path engine/src/png.cpp -o -name '*.h' -path '*precompute*')
 forbid 'opencv' $(src engine precompute games | grep -v precompute/bench/keyer_bench.cpp)  # there a rival only
 forbid 'libav|libsw' $(src precompute games | grep -vE 'precompute/film/(container|decoder|sender)\.')
 forbid 'similarity/|control/|tool/|window/' $(src precompute/film)
 forbid 'control/|tool/|window/' $(src precompute/similarity)
 forbid 'tool/|window/' $(src precompute/control)
-forbid 'SDL|epoxy|imgui|vsprite/draw|vsprite/sdl' $(src precompute/film precompute/similarity precompute/control precompute/tool)
+forbid 'SDL|imgui|vsprite/(draw|session|sdl|window)\.h' $(src precompute/film precompute/similarity precompute/control precompute/tool)
 forbid 'film/|similarity/|control/|tool/|window/|\.\./engine|src/' $(src games)
 exit $bad

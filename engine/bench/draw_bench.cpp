@@ -15,7 +15,7 @@
 #include "draw_scene.h"
 #include "vsprite/compose.h"
 #include "vsprite/draw.h"
-#include "vsprite/sdl.h"
+#include "vsprite/window.h"
 
 namespace vsprite::bench {
 namespace {
@@ -164,7 +164,7 @@ void BM_Renderer(benchmark::State& state) {
     state.SkipWithError(window.error().message.c_str());
     return;
   }
-  Result<Renderer> renderer = make_renderer({});
+  Result<Renderer> renderer = make_renderer(Window::gl_function);
   if (!renderer) {
     state.SkipWithError(renderer.error().message.c_str());
     return;

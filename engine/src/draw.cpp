@@ -46,22 +46,22 @@ std::array<float, 4> clear_corners(ImageView image) {
 }  // namespace
 
 Renderer::Impl::~Impl() {
-  for (gl::Id id : pages) gl::free_texture(id);
+  for (gl::Id id : pages) gl::free_texture(device, id);
   for (Program* p : {&shape_program, &flat_program, &window_program, &file_program}) {
-    if (p->id != 0) gl::free_program(p->id);
+    if (p->id != 0) gl::free_program(device, p->id);
   }
   for (auto& variants : sprite_programs) {
     for (Program& p : variants) {
-      if (p.id != 0) gl::free_program(p.id);
+      if (p.id != 0) gl::free_program(device, p.id);
     }
   }
-  for (Program& effect : effects) gl::free_program(effect.id);
+  for (Program& effect : effects) gl::free_program(device, effect.id);
   for (gl::Stream* s : {&sprite_stream, &shape_stream, &flat_stream, &empty_stream}) {
-    gl::free_stream(*s);
+    gl::free_stream(device, *s);
   }
-  for (Surface& layer : layers) layer.free();
-  frame.free();
-  gl::free_target(encoded);
+  for (Surface& layer : layers) layer.free(device);
+  frame.free(device);
+  gl::free_target(device, encoded);
 }
 
 Result<void> Renderer::Impl::set_up() {
@@ -71,6 +71,7 @@ Result<void> Renderer::Impl::set_up() {
     Result<gl::Id> id = gl::make_program(device, name, vert, "", frag, defines);
     if (!id) return std::move(id).error();
     program.id = *id;
+    program.device = &device;
     return {};
   };
   if (auto r = build(sprite_programs[0][0], "sprite", glsl::sprite_vert, glsl::sprite_frag,
@@ -86,10 +87,10 @@ Result<void> Renderer::Impl::set_up() {
       !r) {
     return r;
   }
-  sprite_stream = gl::make_stream(9, 8);
-  shape_stream = gl::make_stream(4, 4);
-  flat_stream = gl::make_stream(2, 0);
-  empty_stream = gl::make_stream(0, 0);
+  sprite_stream = gl::make_stream(device, 9, 8);
+  shape_stream = gl::make_stream(device, 4, 4);
+  flat_stream = gl::make_stream(device, 2, 0);
+  empty_stream = gl::make_stream(device, 0, 0);
   return {};
 }
 
@@ -105,23 +106,24 @@ void Renderer::Impl::flush() {
   const gl::Stream& stream = sprites                ? sprite_stream
                              : what == Kind::Shapes ? shape_stream
                                                     : flat_stream;
-  gl::use(program.id);
+  gl::use(device, program.id);
   program.set("frame_size",
               {static_cast<float>(target->main.width), static_cast<float>(target->main.height)});
   if (sprites) {
-    gl::bind(0, pages[static_cast<std::size_t>(page)]);
-    gl::set_sampler(program.location("page"), 0);
+    gl::bind(device, 0, pages[static_cast<std::size_t>(page)]);
+    gl::set_sampler(device, program.location("page"), 0);
     program.set("page_size", {static_cast<float>(atlas.page_width(page)),
                               static_cast<float>(atlas.page_height(page))});
     if (old_page >= 0) {
-      gl::bind(1, pages[static_cast<std::size_t>(old_page)]);
-      gl::set_sampler(program.location("old_page"), 1);
+      gl::bind(device, 1, pages[static_cast<std::size_t>(old_page)]);
+      gl::set_sampler(device, program.location("old_page"), 1);
       program.set("old_page_size", {static_cast<float>(atlas.page_width(old_page)),
                                     static_cast<float>(atlas.page_height(old_page))});
     }
   }
-  gl::blend(blend);
-  gl::draw(stream, batch.data(), batch.size() / (4 * static_cast<std::size_t>(stream.vectors)));
+  gl::blend(device, blend);
+  gl::draw(device, stream, batch.data(),
+           batch.size() / (4 * static_cast<std::size_t>(stream.vectors)));
   batch.clear();
   ++stats.batches;
 }
@@ -136,6 +138,7 @@ Program* Renderer::Impl::sprite_program(int samples, bool fading) {
         gl::make_program(device, "sprite", glsl::sprite_vert, "", glsl::sprite_frag, defines);
     if (!made) return nullptr;
     program.id = *made;
+    program.device = &device;
   }
   return &program;
 }
@@ -175,16 +178,16 @@ std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, Im
     }
   }
   if (placed->page == detail::Atlas::Page::New) {
-    if (pages[index] != 0) gl::free_texture(pages[index]);
-    pages[index] =
-        gl::make_texture(atlas.page_width(placed->slot.page), atlas.page_height(placed->slot.page));
+    if (pages[index] != 0) gl::free_texture(device, pages[index]);
+    pages[index] = gl::make_texture(device, atlas.page_width(placed->slot.page),
+                                    atlas.page_height(placed->slot.page));
   }
   staging.assign(std::size_t(width) * std::size_t(height) * 4, 0);
   for (int y = 0; y < image.height; ++y) {
     std::uint16_t* out = &staging[(std::size_t(y + 1) * std::size_t(width) + 1) * 4];
     for (int x = 0; x < image.width; ++x, out += 4) light.convert(image.pixel(x, y), out);
   }
-  gl::upload(pages[index], placed->slot.rect, staging.data());
+  gl::upload(device, pages[index], placed->slot.rect, staging.data());
   ++stats.uploads;
   stats.texture_bytes = atlas.bytes();
   detail::AtlasSlot slot = placed->slot;
@@ -258,8 +261,8 @@ Shape box(Vec2 from, Vec2 to, Color color, float radius) noexcept {
           .color = color};
 }
 
-Result<Renderer> make_renderer(const RendererConfig& config) {
-  Result<gl::Device> device = gl::probe();
+Result<Renderer> make_renderer(GlLoader load, const RendererConfig& config) {
+  Result<gl::Device> device = gl::probe(load);
   if (!device) return std::move(device).error();
   auto impl = std::make_unique<Renderer::Impl>(config, std::move(*device));
   if (auto done = impl->set_up(); !done) return std::move(done).error();
@@ -283,26 +286,26 @@ void Renderer::set_camera(const Camera& camera) { impl_->camera = camera; }
 
 void Renderer::begin_frame(int width, int height) {
   Impl& m = *impl_;
-  m.window_framebuffer = gl::current_framebuffer();
+  m.window_framebuffer = gl::current_framebuffer(m.device);
   m.stats.sprites = m.stats.batches = m.stats.uploads = 0;
   m.batch.clear();
   m.kind = Kind::Nothing;
   m.in_frame = true;
   if (m.frame.main.width != width || m.frame.main.height != height) {
-    m.frame.free();
-    gl::free_target(m.encoded);
+    m.frame.free(m.device);
+    gl::free_target(m.device, m.encoded);
     if (width > 0 && height > 0) {
       if (auto made = gl::make_target(m.device, width, height, false)) m.frame.main = *made;
     }
   }
   m.use_surface(m.frame.main.framebuffer != 0 ? &m.frame : nullptr);
-  if (m.target != nullptr) gl::clear(0, 0, 0, 1);
+  if (m.target != nullptr) gl::clear(m.device, 0, 0, 0, 1);
 }
 
 void Renderer::clear(Color color) {
   if (impl_->target == nullptr) return;
   impl_->flush();
-  gl::clear(color.r * color.a, color.g * color.a, color.b * color.a, color.a);
+  gl::clear(impl_->device, color.r * color.a, color.g * color.a, color.b * color.a, color.a);
 }
 
 bool Renderer::is_cached(const TextureKey& key) const noexcept {

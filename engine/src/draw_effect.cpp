@@ -29,7 +29,7 @@ Result<Effect> Renderer::make_effect(std::string_view name, std::string_view fra
   Result<gl::Id> id =
       gl::make_program(impl_->device, name, glsl::effect_vert, kEffectPrelude, fragment);
   if (!id) return std::move(id).error();
-  impl_->effects.push_back({std::string(name), *id, {}});
+  impl_->effects.push_back({std::string(name), *id, {}, &impl_->device});
   return Effect{static_cast<int>(impl_->effects.size()) - 1};
 }
 
@@ -47,13 +47,13 @@ void Renderer::run_effect(Effect effect, std::span<const Uniform> uniforms,
       if (!made) return;
       m.target->copy = *made;
     }
-    gl::copy(main, m.target->copy);
+    gl::copy(m.device, main, m.target->copy);
     gl::draw_to(m.device, main);
   }
-  gl::use(program.id);
+  gl::use(m.device, program.id);
   if (scene >= 0) {
-    gl::bind(0, m.target->copy.texture);
-    gl::set_sampler(scene, 0);
+    gl::bind(m.device, 0, m.target->copy.texture);
+    gl::set_sampler(m.device, scene, 0);
   }
   int unit = 1;
   for (const Uniform& u : uniforms) {
@@ -61,20 +61,21 @@ void Renderer::run_effect(Effect effect, std::span<const Uniform> uniforms,
     if (place < 0) continue;
     if (u.components == 0) {
       if (u.layer.id < 0) continue;
-      gl::bind(unit, m.layers[static_cast<std::size_t>(u.layer.id)].main.texture);
-      gl::set_sampler(place, unit++);
+      gl::bind(m.device, unit, m.layers[static_cast<std::size_t>(u.layer.id)].main.texture);
+      gl::set_sampler(m.device, place, unit++);
     } else if (!u.values.empty()) {
-      gl::set(place, u.components, u.values);
+      gl::set(m.device, place, u.components, u.values);
     } else {
-      gl::set(place, u.components, {u.value.data(), static_cast<std::size_t>(u.components)});
+      gl::set(m.device, place, u.components,
+              {u.value.data(), static_cast<std::size_t>(u.components)});
     }
   }
   const Rect area = pass.area.width > 0 ? pass.area : Rect{0, 0, main.width, main.height};
   program.set("frame_size", {static_cast<float>(main.width), static_cast<float>(main.height)});
   program.set("area", {static_cast<float>(area.x), static_cast<float>(area.y),
                        static_cast<float>(area.width), static_cast<float>(area.height)});
-  gl::blend(pass.blend);
-  gl::draw_rectangle(m.empty_stream);
+  gl::blend(m.device, pass.blend);
+  gl::draw_rectangle(m.device, m.empty_stream);
   ++m.stats.batches;
 }
 
@@ -95,7 +96,7 @@ Result<Layer> Renderer::make_layer(int width, int height, LayerFormat format) {
 }
 
 void Renderer::free_layer(Layer layer) {
-  if (layer.id >= 0) impl_->layers[static_cast<std::size_t>(layer.id)].free();
+  if (layer.id >= 0) impl_->layers[static_cast<std::size_t>(layer.id)].free(impl_->device);
 }
 
 void Renderer::begin_layer(Layer layer) {
@@ -114,15 +115,15 @@ void Renderer::draw_layer(Layer layer, const EffectPass& pass) {
 }
 
 void Renderer::Impl::encode(Program& program, bool flip) {
-  gl::use(program.id);
-  gl::bind(0, frame.main.texture);
-  gl::set_sampler(program.location("frame"), 0);
+  gl::use(device, program.id);
+  gl::bind(device, 0, frame.main.texture);
+  gl::set_sampler(device, program.location("frame"), 0);
   program.set("frame_size",
               {static_cast<float>(frame.main.width), static_cast<float>(frame.main.height)});
   program.set("flip", {flip ? 1.0f : 0.0f});
   program.set("dither", {config.dither ? 1.0f : 0.0f});
-  gl::blend(BlendMode::Replace);
-  gl::draw_rectangle(empty_stream);
+  gl::blend(device, BlendMode::Replace);
+  gl::draw_rectangle(device, empty_stream);
 }
 
 bool Renderer::Impl::encode_apart(Program& program) {
@@ -132,7 +133,7 @@ bool Renderer::Impl::encode_apart(Program& program) {
     if (!made) return false;
     encoded = *made;
   }
-  gl::draw_to_window(encoded.framebuffer, {0, 0, width, height});
+  gl::draw_to_window(device, encoded.framebuffer, {0, 0, width, height});
   encode(program, false);
   return true;
 }
@@ -158,16 +159,16 @@ void Renderer::end_frame(int window_width, int window_height) {
   const Rect place{r.x, window_height - r.y - r.height, r.width, r.height};
   const bool exact = r.width == width && r.height == height;
   if (!exact && !m.encode_apart(m.window_program)) return;
-  gl::draw_to_window(m.window_framebuffer, place);
-  if (r.width != window_width || r.height != window_height) gl::clear(0, 0, 0, 1);
+  gl::draw_to_window(m.device, m.window_framebuffer, place);
+  if (r.width != window_width || r.height != window_height) gl::clear(m.device, 0, 0, 0, 1);
   if (exact) {
     m.encode(m.window_program, true);
   } else {
-    gl::stretch(m.encoded, m.window_framebuffer, place);
+    gl::stretch(m.device, m.encoded, m.window_framebuffer, place);
   }
 }
 
-void Renderer::wait() { gl::finish(); }
+void Renderer::wait() { gl::finish(impl_->device); }
 
 Vec2 Renderer::frame_from_window(Vec2 point) const noexcept {
   const Rect& r = impl_->window_fit;
@@ -186,13 +187,13 @@ Image Renderer::read_pixels() {
   if (m.frame.main.framebuffer == 0) return {};
   Image image{width, height, {}};
   image.rgba.resize(std::size_t(width) * std::size_t(height) * 4);
-  const gl::Id before = gl::current_framebuffer();
+  const gl::Id before = gl::current_framebuffer(m.device);
   if (!m.encode_apart(m.file_program)) return {};
-  gl::read(m.encoded, image.rgba.data());
+  gl::read(m.device, m.encoded, image.rgba.data());
   if (m.target != nullptr) {
     gl::draw_to(m.device, m.target->main);
   } else {
-    gl::draw_to_window(before, {0, 0, width, height});
+    gl::draw_to_window(m.device, before, {0, 0, width, height});
   }
   return image;
 }

@@ -259,6 +259,13 @@ void decode_parts(const FrameParts& parts, std::span<std::uint8_t> scratch, std:
   HWY_DYNAMIC_DISPATCH(DecodeParts)(parts, scratch.data(), rgba);
 }
 
+#if HWY_TARGETS == HWY_STATIC_TARGET  // nothing to choose, and no library of Highway's is linked
+
+std::vector<const char*> frame_targets() { return {"the only one"}; }
+void use_frame_target(int) {}
+
+#else
+
 std::vector<const char*> frame_targets() {
   std::vector<const char*> names;
   hwy::SetSupportedTargetsForTest(0);
@@ -275,6 +282,8 @@ void use_frame_target(int k) {
   }
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
+
+#endif
 
 }  // namespace vsprite::detail
 #endif  // HWY_ONCE

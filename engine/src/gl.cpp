@@ -1,34 +1,71 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// OpenGL 3.3 core or ES 3 through libepoxy. No call here fails but for want of memory or by bad
-// GLSL.
+// OpenGL 3.3 core or ES 3 through the functions that the game's loader finds. No call here fails
+// but for want of memory or by bad GLSL.
 #include "gl.h"
 
-#include <epoxy/gl.h>
+// Khronos's headers name every function and its type; the functions themselves come by the loader.
+#ifdef __EMSCRIPTEN__
+#include <GLES3/gl3.h>
+#else
+#define GL_GLEXT_PROTOTYPES
+#include <GL/glcorearb.h>
+#endif
 
 #include <array>
-#include <vector>
+#include <charconv>
+#include <cstring>
 
 namespace vsprite::detail::gl {
+
+#define VSPRITE_GL_FUNCTIONS(F)                                                                    \
+  F(ActiveTexture)                                                                                 \
+  F(AttachShader)                                                                                  \
+  F(BindBuffer) F(BindFramebuffer) F(BindTexture) F(BindVertexArray) F(BlendEquation) F(BlendFunc) \
+      F(BlendFuncSeparate) F(BlitFramebuffer) F(BufferData) F(CheckFramebufferStatus) F(Clear)     \
+          F(ClearColor) F(ColorMask) F(CompileShader) F(CreateProgram) F(CreateShader)             \
+              F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) F(DeleteShader)              \
+                  F(DeleteTextures) F(DeleteVertexArrays) F(Disable) F(DrawArrays)                 \
+                      F(DrawArraysInstanced) F(Enable) F(EnableVertexAttribArray) F(Finish)        \
+                          F(FramebufferTexture2D) F(GenBuffers) F(GenFramebuffers) F(GenTextures)  \
+                              F(GenVertexArrays) F(GetIntegerv) F(GetProgramInfoLog)               \
+                                  F(GetProgramiv) F(GetShaderInfoLog) F(GetShaderiv) F(GetString)  \
+                                      F(GetUniformLocation) F(LinkProgram) F(PixelStorei)          \
+                                          F(ReadPixels) F(ShaderSource) F(TexImage2D)              \
+                                              F(TexParameteri) F(TexSubImage2D) F(Uniform1fv)      \
+                                                  F(Uniform1i) F(Uniform2fv) F(Uniform3fv)         \
+                                                      F(Uniform4fv) F(UseProgram)                  \
+                                                          F(VertexAttribDivisor)                   \
+                                                              F(VertexAttribPointer) F(Viewport)
+
+struct Functions {
+#define VSPRITE_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
+  VSPRITE_GL_FUNCTIONS(VSPRITE_GL_MEMBER)
+#undef VSPRITE_GL_MEMBER
+};
+
+void FreeFunctions::operator()(const Functions* functions) const { delete functions; }
+
 namespace {
 
+constexpr GLenum kFramebufferSrgb = 0x8DB9;  // desktop only
 constexpr std::string_view kCoreHeader = "#version 330 core\n";
 constexpr std::string_view kEsHeader =
     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
-std::string log_of(Id id, bool program) {
+std::string log_of(const Device& device, Id id, bool program) {
   GLint length = 0;
   if (program) {
-    glGetProgramiv(id, GL_INFO_LOG_LENGTH, &length);
+    device->GetProgramiv(id, GL_INFO_LOG_LENGTH, &length);
   } else {
-    glGetShaderiv(id, GL_INFO_LOG_LENGTH, &length);
+    device->GetShaderiv(id, GL_INFO_LOG_LENGTH, &length);
   }
   std::string text(static_cast<std::size_t>(length > 0 ? length : 1), '\0');
   if (program) {
-    glGetProgramInfoLog(id, length, nullptr, text.data());
+    device->GetProgramInfoLog(id, length, nullptr, text.data());
   } else {
-    glGetShaderInfoLog(id, length, nullptr, text.data());
+    device->GetShaderInfoLog(id, length, nullptr, text.data());
   }
   while (!text.empty() && (text.back() == '\0' || text.back() == '\n' || text.back() == '.')) {
     text.pop_back();
@@ -47,57 +84,97 @@ Result<Id> compile(const Device& device, std::string_view name, GLenum kind,
     strings[i] = parts[i].data();
     lengths[i] = static_cast<GLint>(parts[i].size());
   }
-  const Id shader = glCreateShader(kind);
-  glShaderSource(shader, static_cast<GLsizei>(parts.size()), strings.data(), lengths.data());
-  glCompileShader(shader);
+  const Id shader = device->CreateShader(kind);
+  device->ShaderSource(shader, static_cast<GLsizei>(parts.size()), strings.data(), lengths.data());
+  device->CompileShader(shader);
   GLint done = GL_FALSE;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &done);
+  device->GetShaderiv(shader, GL_COMPILE_STATUS, &done);
   if (done == GL_TRUE) return shader;
   Error error{ErrorCode::BadContent, std::string(name) +
                                          (kind == GL_VERTEX_SHADER ? ".vert: " : ".frag: ") +
-                                         log_of(shader, false)};
-  glDeleteShader(shader);
+                                         log_of(device, shader, false)};
+  device->DeleteShader(shader);
   return error;
+}
+
+/// Nulls, and the name of one of them, where the loader knows no such function.
+FunctionTable load_functions(GlLoader load, const char*& missing) {
+  auto functions = std::make_unique<Functions>();
+  const auto find = [&](auto& function, const char* name) {
+    function =
+        load != nullptr ? reinterpret_cast<std::decay_t<decltype(function)>>(load(name)) : nullptr;
+    if (function == nullptr) missing = name;
+  };
+#define VSPRITE_GL_FIND(name) find(functions->name, "gl" #name);
+  VSPRITE_GL_FUNCTIONS(VSPRITE_GL_FIND)
+#undef VSPRITE_GL_FIND
+  return FunctionTable(functions.release());
+}
+
+struct Version {
+  bool es = false;
+  int major = 0, minor = 0;
+};
+
+/// "4.5 (Core Profile) Mesa 22.3.6", "OpenGL ES 3.0 (WebGL 2.0 ...)".
+Version read_version(std::string_view words) {
+  constexpr std::string_view kEs = "OpenGL ES ";
+  Version version;
+  version.es = words.starts_with(kEs);
+  if (version.es) words.remove_prefix(kEs.size());
+  const char* const end = words.data() + words.size();
+  const char* dot = std::from_chars(words.data(), end, version.major).ptr;
+  if (dot != end && *dot == '.') std::from_chars(dot + 1, end, version.minor);
+  return version;
 }
 
 GLenum linear_format(const Device& device) {
   return device.half_target ? GL_RGBA16F : GL_SRGB8_ALPHA8;
 }
 
-void set_filter(GLint wrap) {
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+void set_filter(const Device& device, GLint wrap) {
+  device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
+  device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
 }
 
 }  // namespace
 
-Result<Device> probe() {
+Result<Device> probe(GlLoader load) {
+  const Error no_context{ErrorCode::Unavailable,
+                         "renderer: no OpenGL context is current in this thread, make one first"};
+  const char* missing = nullptr;
   Device device;
-  const GLubyte* version = glGetString(GL_VERSION);
-  if (version == nullptr) {
+  device.functions = load_functions(load, missing);
+  if (device->GetString == nullptr) return no_context;
+  const GLubyte* words = device->GetString(GL_VERSION);
+  if (words == nullptr) return no_context;
+  const Version version = read_version(reinterpret_cast<const char*>(words));
+  device.es = version.es;
+  const std::string number = std::to_string(version.major) + "." + std::to_string(version.minor);
+  if (version.major * 10 + version.minor < (device.es ? 30 : 33)) {
     return Error{ErrorCode::Unavailable,
-                 "renderer: no OpenGL context is current in this thread, make one first"};
-  }
-  device.es = !epoxy_is_desktop_gl();
-  const int number = epoxy_gl_version();
-  if (number < (device.es ? 30 : 33)) {
-    return Error{ErrorCode::Unavailable,
-                 "renderer: OpenGL " + std::to_string(number / 10) + "." +
-                     std::to_string(number % 10) +
+                 "renderer: OpenGL " + number +
                      " was found, 3.3 or ES 3.0 is due: update the graphics driver"};
   }
-  device.name = (device.es ? "OpenGL ES " : "OpenGL ") + std::to_string(number / 10) + "." +
-                std::to_string(number % 10) + ", " +
-                reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  if (missing != nullptr) {
+    return Error{ErrorCode::Unavailable, "renderer: the OpenGL function " + std::string(missing) +
+                                             " was not found: update the graphics driver"};
+  }
+  device.name = (device.es ? "OpenGL ES " : "OpenGL ") + number + ", " +
+                reinterpret_cast<const char*>(device->GetString(GL_RENDERER));
   GLint size = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
+  device->GetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
   device.max_size = size;
   device.half_target = true;
   Result<Target> trial = make_target(device, 4, 4, false);
   device.half_target = trial.has_value();
-  if (trial) free_target(*trial);
+  if (trial) {
+    free_target(device, *trial);
+  } else {
+    device.name += ", 8 bits a channel";
+  }
   return device;
 }
 
@@ -109,60 +186,65 @@ Result<Id> make_program(const Device& device, std::string_view name, std::string
   const std::string prelude = std::string(defines) + std::string(fragment_prelude);
   Result<Id> frag = compile(device, name, GL_FRAGMENT_SHADER, prelude, fragment);
   if (!frag) {
-    glDeleteShader(*vert);
+    device->DeleteShader(*vert);
     return frag;
   }
-  const Id program = glCreateProgram();
-  glAttachShader(program, *vert);
-  glAttachShader(program, *frag);
-  glLinkProgram(program);
-  glDeleteShader(*vert);
-  glDeleteShader(*frag);
+  const Id program = device->CreateProgram();
+  device->AttachShader(program, *vert);
+  device->AttachShader(program, *frag);
+  device->LinkProgram(program);
+  device->DeleteShader(*vert);
+  device->DeleteShader(*frag);
   GLint done = GL_FALSE;
-  glGetProgramiv(program, GL_LINK_STATUS, &done);
+  device->GetProgramiv(program, GL_LINK_STATUS, &done);
   if (done == GL_TRUE) return program;
-  Error error{ErrorCode::BadContent, std::string(name) + ": " + log_of(program, true)};
-  glDeleteProgram(program);
+  Error error{ErrorCode::BadContent, std::string(name) + ": " + log_of(device, program, true)};
+  device->DeleteProgram(program);
   return error;
 }
 
-void free_program(Id program) { glDeleteProgram(program); }
-int find_uniform(Id program, const char* name) { return glGetUniformLocation(program, name); }
-void use(Id program) { glUseProgram(program); }
+void free_program(const Device& device, Id program) { device->DeleteProgram(program); }
+int find_uniform(const Device& device, Id program, const char* name) {
+  return device->GetUniformLocation(program, name);
+}
+void use(const Device& device, Id program) { device->UseProgram(program); }
 
-void set(int location, int components, std::span<const float> values) {
+void set(const Device& device, int location, int components, std::span<const float> values) {
   const GLsizei length = static_cast<GLsizei>(values.size()) / components;
-  if (components == 1) glUniform1fv(location, length, values.data());
-  if (components == 2) glUniform2fv(location, length, values.data());
-  if (components == 3) glUniform3fv(location, length, values.data());
-  if (components == 4) glUniform4fv(location, length, values.data());
+  if (components == 1) device->Uniform1fv(location, length, values.data());
+  if (components == 2) device->Uniform2fv(location, length, values.data());
+  if (components == 3) device->Uniform3fv(location, length, values.data());
+  if (components == 4) device->Uniform4fv(location, length, values.data());
 }
 
-void set_sampler(int location, int unit) { glUniform1i(location, unit); }
+void set_sampler(const Device& device, int location, int unit) {
+  device->Uniform1i(location, unit);
+}
 
-Id make_texture(int width, int height) {
+Id make_texture(const Device& device, int width, int height) {
   Id id = 0;
-  glGenTextures(1, &id);
-  bind(0, id);
-  set_filter(GL_CLAMP_TO_EDGE);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_HALF_FLOAT, nullptr);
+  device->GenTextures(1, &id);
+  bind(device, 0, id);
+  set_filter(device, GL_CLAMP_TO_EDGE);
+  device->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, width, height, 0, GL_RGBA, GL_HALF_FLOAT,
+                     nullptr);
   return id;
 }
 
-void upload(Id texture, const Rect& rect, const std::uint16_t* halves) {
-  bind(0, texture);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
-  glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
-  glTexSubImage2D(GL_TEXTURE_2D, 0, rect.x, rect.y, rect.width, rect.height, GL_RGBA, GL_HALF_FLOAT,
-                  halves);
+void upload(const Device& device, Id texture, const Rect& rect, const std::uint16_t* halves) {
+  bind(device, 0, texture);
+  device->PixelStorei(GL_UNPACK_ALIGNMENT, 8);
+  device->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  device->TexSubImage2D(GL_TEXTURE_2D, 0, rect.x, rect.y, rect.width, rect.height, GL_RGBA,
+                        GL_HALF_FLOAT, halves);
 }
 
-void bind(int unit, Id texture) {
-  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-  glBindTexture(GL_TEXTURE_2D, texture);
+void bind(const Device& device, int unit, Id texture) {
+  device->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  device->BindTexture(GL_TEXTURE_2D, texture);
 }
 
-void free_texture(Id texture) { glDeleteTextures(1, &texture); }
+void free_texture(const Device& device, Id texture) { device->DeleteTextures(1, &texture); }
 
 Result<Target> make_target(const Device& device, int width, int height, bool encoded) {
   Target target{0, 0, width, height};
@@ -172,137 +254,140 @@ Result<Target> make_target(const Device& device, int width, int height, bool enc
                                              std::to_string(device.max_size) +
                                              " a side are possible"};
   }
-  glGenTextures(1, &target.texture);
-  bind(0, target.texture);
-  set_filter(GL_CLAMP_TO_EDGE);
+  device->GenTextures(1, &target.texture);
+  bind(device, 0, target.texture);
+  set_filter(device, GL_CLAMP_TO_EDGE);
   const GLenum format = encoded ? GL_RGBA8 : linear_format(device);
   const bool half = format == GL_RGBA16F;
-  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA,
-               half ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE, nullptr);
-  const Id before = current_framebuffer();
-  glGenFramebuffers(1, &target.framebuffer);
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture, 0);
-  const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
-  glBindFramebuffer(GL_FRAMEBUFFER, before);
+  device->TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format), width, height, 0, GL_RGBA,
+                     half ? GL_HALF_FLOAT : GL_UNSIGNED_BYTE, nullptr);
+  const Id before = current_framebuffer(device);
+  device->GenFramebuffers(1, &target.framebuffer);
+  device->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  device->FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture,
+                               0);
+  const bool complete = device->CheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  device->BindFramebuffer(GL_FRAMEBUFFER, before);
   if (complete) return target;
-  free_target(target);
+  free_target(device, target);
   return Error{ErrorCode::Unavailable, "renderer: the graphics driver refuses a picture of " +
                                            std::to_string(width) + " x " + std::to_string(height)};
 }
 
-void free_target(Target& target) {
-  if (target.framebuffer != 0) glDeleteFramebuffers(1, &target.framebuffer);
-  if (target.texture != 0) glDeleteTextures(1, &target.texture);
+void free_target(const Device& device, Target& target) {
+  if (target.framebuffer != 0) device->DeleteFramebuffers(1, &target.framebuffer);
+  if (target.texture != 0) device->DeleteTextures(1, &target.texture);
   target = {};
 }
 
 void draw_to(const Device& device, const Target& target) {
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-  glViewport(0, 0, target.width, target.height);
-  glDisable(GL_DEPTH_TEST);
-  glDisable(GL_CULL_FACE);
-  glDisable(GL_SCISSOR_TEST);
-  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  device->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  device->Viewport(0, 0, target.width, target.height);
+  device->Disable(GL_DEPTH_TEST);
+  device->Disable(GL_CULL_FACE);
+  device->Disable(GL_SCISSOR_TEST);
+  device->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   // An sRGB target is blended in linear light only if asked; on ES it always is.
-  if (!device.es && !device.half_target) glEnable(GL_FRAMEBUFFER_SRGB);
+  if (!device.es && !device.half_target) device->Enable(kFramebufferSrgb);
 }
 
-void draw_to_window(Id framebuffer, const Rect& viewport) {
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  glViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-  if (epoxy_is_desktop_gl()) glDisable(GL_FRAMEBUFFER_SRGB);
+void draw_to_window(const Device& device, Id framebuffer, const Rect& viewport) {
+  device->BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  device->Viewport(viewport.x, viewport.y, viewport.width, viewport.height);
+  if (!device.es) device->Disable(kFramebufferSrgb);
 }
 
-Id current_framebuffer() {
+Id current_framebuffer(const Device& device) {
   GLint id = 0;
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &id);
+  device->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &id);
   return static_cast<Id>(id);
 }
 
-void copy(const Target& from, const Target& to) {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer);
-  glBlitFramebuffer(0, 0, from.width, from.height, 0, 0, to.width, to.height, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
+void copy(const Device& device, const Target& from, const Target& to) {
+  device->BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
+  device->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer);
+  device->BlitFramebuffer(0, 0, from.width, from.height, 0, 0, to.width, to.height,
+                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
-void stretch(const Target& from, Id window, const Rect& place) {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, window);
-  glBlitFramebuffer(0, 0, from.width, from.height, place.x, place.y + place.height,
-                    place.x + place.width, place.y, GL_COLOR_BUFFER_BIT, GL_LINEAR);
-  glBindFramebuffer(GL_FRAMEBUFFER, window);
+void stretch(const Device& device, const Target& from, Id window, const Rect& place) {
+  device->BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
+  device->BindFramebuffer(GL_DRAW_FRAMEBUFFER, window);
+  device->BlitFramebuffer(0, 0, from.width, from.height, place.x, place.y + place.height,
+                          place.x + place.width, place.y, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  device->BindFramebuffer(GL_FRAMEBUFFER, window);
 }
 
-void clear(float r, float g, float b, float a) {
-  glClearColor(r, g, b, a);
-  glClear(GL_COLOR_BUFFER_BIT);
+void clear(const Device& device, float r, float g, float b, float a) {
+  device->ClearColor(r, g, b, a);
+  device->Clear(GL_COLOR_BUFFER_BIT);
 }
 
-void read(const Target& target, std::uint8_t* rgba) {
-  const Id before = current_framebuffer();
-  glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
-  glPixelStorei(GL_PACK_ALIGNMENT, 4);
-  glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-  glReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
-  glBindFramebuffer(GL_FRAMEBUFFER, before);
+void read(const Device& device, const Target& target, std::uint8_t* rgba) {
+  const Id before = current_framebuffer(device);
+  device->BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  device->PixelStorei(GL_PACK_ALIGNMENT, 4);
+  device->PixelStorei(GL_PACK_ROW_LENGTH, 0);
+  device->ReadPixels(0, 0, target.width, target.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+  device->BindFramebuffer(GL_FRAMEBUFFER, before);
 }
 
-void finish() { glFinish(); }
+void finish(const Device& device) { device->Finish(); }
 
-void blend(BlendMode mode) {
+void blend(const Device& device, BlendMode mode) {
   if (mode == BlendMode::Replace) {
-    glDisable(GL_BLEND);
+    device->Disable(GL_BLEND);
     return;
   }
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_FUNC_ADD);
-  if (mode == BlendMode::Over) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  if (mode == BlendMode::Add) glBlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
-  if (mode == BlendMode::Multiply) glBlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE);
+  device->Enable(GL_BLEND);
+  device->BlendEquation(GL_FUNC_ADD);
+  if (mode == BlendMode::Over) device->BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  if (mode == BlendMode::Add) device->BlendFuncSeparate(GL_ONE, GL_ONE, GL_ZERO, GL_ONE);
+  if (mode == BlendMode::Multiply)
+    device->BlendFuncSeparate(GL_DST_COLOR, GL_ZERO, GL_ZERO, GL_ONE);
 }
 
-Stream make_stream(int vectors, int corners) {
+Stream make_stream(const Device& device, int vectors, int corners) {
   const bool instanced = corners > 0;
   Stream stream{0, 0, vectors, corners};
-  glGenVertexArrays(1, &stream.array);
-  glBindVertexArray(stream.array);
+  device->GenVertexArrays(1, &stream.array);
+  device->BindVertexArray(stream.array);
   if (vectors == 0) return stream;
-  glGenBuffers(1, &stream.buffer);
-  glBindBuffer(GL_ARRAY_BUFFER, stream.buffer);
+  device->GenBuffers(1, &stream.buffer);
+  device->BindBuffer(GL_ARRAY_BUFFER, stream.buffer);
   const GLsizei stride = static_cast<GLsizei>(sizeof(float)) * 4 * vectors;
   for (int i = 0; i < vectors; ++i) {
     const GLuint slot = static_cast<GLuint>(i);
     const std::size_t offset = sizeof(float) * 4 * slot;
-    glEnableVertexAttribArray(slot);
-    glVertexAttribPointer(slot, 4, GL_FLOAT, GL_FALSE, stride, reinterpret_cast<void*>(offset));
-    glVertexAttribDivisor(slot, instanced ? 1 : 0);
+    device->EnableVertexAttribArray(slot);
+    device->VertexAttribPointer(slot, 4, GL_FLOAT, GL_FALSE, stride,
+                                reinterpret_cast<void*>(offset));
+    device->VertexAttribDivisor(slot, instanced ? 1 : 0);
   }
   return stream;
 }
 
-void free_stream(Stream& stream) {
-  if (stream.array != 0) glDeleteVertexArrays(1, &stream.array);
-  if (stream.buffer != 0) glDeleteBuffers(1, &stream.buffer);
+void free_stream(const Device& device, Stream& stream) {
+  if (stream.array != 0) device->DeleteVertexArrays(1, &stream.array);
+  if (stream.buffer != 0) device->DeleteBuffers(1, &stream.buffer);
   stream = {};
 }
 
-void draw(const Stream& stream, const float* data, std::size_t count) {
-  glBindVertexArray(stream.array);
-  glBindBuffer(GL_ARRAY_BUFFER, stream.buffer);
+void draw(const Device& device, const Stream& stream, const float* data, std::size_t count) {
+  device->BindVertexArray(stream.array);
+  device->BindBuffer(GL_ARRAY_BUFFER, stream.buffer);
   const std::size_t bytes = count * sizeof(float) * 4 * static_cast<std::size_t>(stream.vectors);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+  device->BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
   if (stream.corners > 0) {
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, stream.corners, static_cast<GLsizei>(count));
+    device->DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, stream.corners, static_cast<GLsizei>(count));
   } else {
-    glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(count));
+    device->DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(count));
   }
 }
 
-void draw_rectangle(const Stream& stream) {
-  glBindVertexArray(stream.array);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+void draw_rectangle(const Device& device, const Stream& stream) {
+  device->BindVertexArray(stream.array);
+  device->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 }  // namespace vsprite::detail::gl

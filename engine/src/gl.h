@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,11 +20,22 @@ namespace vsprite::detail::gl {
 
 using Id = unsigned;
 
+/// OpenGL's functions as the loader found them, by their names without "gl"; known to gl.cpp alone.
+struct Functions;
+struct FreeFunctions {
+  void operator()(const Functions* functions) const;
+};
+using FunctionTable = std::unique_ptr<const Functions, FreeFunctions>;
+
+/// What the other operations draw by.
 struct Device {
+  FunctionTable functions;
   std::string name;
   bool es = false;
   bool half_target = false;  ///< RGBA16F can be drawn into; else sRGB8, with the same blending
   int max_size = 0;          ///< of a texture's side
+
+  const Functions* operator->() const { return functions.get(); }
 };
 
 /// A texture that can be drawn into.
@@ -43,49 +55,50 @@ struct Stream {
   int corners = 4;
 };
 
-Result<Device> probe();
+/// Errors: Unavailable.
+Result<Device> probe(GlLoader load);
 
 /// `name` stands in messages; `defines` opens both texts. Errors: BadContent with the compiler's
 /// words.
 Result<Id> make_program(const Device& device, std::string_view name, std::string_view vertex,
                         std::string_view fragment_prelude, std::string_view fragment,
                         std::string_view defines = "");
-void free_program(Id program);
-int find_uniform(Id program, const char* name);
-void use(Id program);
+void free_program(const Device& device, Id program);
+int find_uniform(const Device& device, Id program, const char* name);
+void use(const Device& device, Id program);
 /// components 1..4, `values` holds components * length floats.
-void set(int location, int components, std::span<const float> values);
-void set_sampler(int location, int unit);
+void set(const Device& device, int location, int components, std::span<const float> values);
+void set_sampler(const Device& device, int location, int unit);
 
 /// Linear premultiplied half floats, bilinear, clamped.
-Id make_texture(int width, int height);
-void upload(Id texture, const Rect& rect, const std::uint16_t* halves);
-void bind(int unit, Id texture);
-void free_texture(Id texture);
+Id make_texture(const Device& device, int width, int height);
+void upload(const Device& device, Id texture, const Rect& rect, const std::uint16_t* halves);
+void bind(const Device& device, int unit, Id texture);
+void free_texture(const Device& device, Id texture);
 
 /// `encoded`: plain RGBA8 to read back from; else linear light. Errors: Unavailable.
 Result<Target> make_target(const Device& device, int width, int height, bool encoded);
-void free_target(Target& target);
+void free_target(const Device& device, Target& target);
 /// Draws go to `target` from now on.
 void draw_to(const Device& device, const Target& target);
 /// Draws go to framebuffer `framebuffer`, values as they are.
-void draw_to_window(Id framebuffer, const Rect& viewport);
-Id current_framebuffer();
-void copy(const Target& from, const Target& to);
+void draw_to_window(const Device& device, Id framebuffer, const Rect& viewport);
+Id current_framebuffer(const Device& device);
+void copy(const Device& device, const Target& from, const Target& to);
 /// Bilinear, turned upside down: windows count their rows from the bottom.
-void stretch(const Target& from, Id window, const Rect& place);
-void clear(float r, float g, float b, float a);
-void read(const Target& target, std::uint8_t* rgba);
+void stretch(const Device& device, const Target& from, Id window, const Rect& place);
+void clear(const Device& device, float r, float g, float b, float a);
+void read(const Device& device, const Target& target, std::uint8_t* rgba);
 
-void finish();
+void finish(const Device& device);
 
-void blend(BlendMode mode);
+void blend(const Device& device, BlendMode mode);
 
-Stream make_stream(int vectors, int corners);
-void free_stream(Stream& stream);
+Stream make_stream(const Device& device, int vectors, int corners);
+void free_stream(const Device& device, Stream& stream);
 /// `data`: count * vectors * 4 floats.
-void draw(const Stream& stream, const float* data, std::size_t count);
+void draw(const Device& device, const Stream& stream, const float* data, std::size_t count);
 /// One strip of four without attributes.
-void draw_rectangle(const Stream& stream);
+void draw_rectangle(const Device& device, const Stream& stream);
 
 }  // namespace vsprite::detail::gl

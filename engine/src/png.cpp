@@ -4,6 +4,10 @@
 // PNG through libpng's low-level interface: its simplified one applies the gAMA chunk, which would
 // change the colours that a designer sees. libpng reports errors by longjmp, so no object with a
 // destructor lives in the functions that call setjmp.
+#include "vsprite/image.h"
+
+#if VSPRITE_PNG
+
 #include <png.h>
 
 #include <csetjmp>
@@ -12,7 +16,6 @@
 #include <new>
 
 #include "file.h"
-#include "vsprite/image.h"
 
 namespace vsprite {
 namespace {
@@ -182,3 +185,25 @@ Result<std::vector<std::uint8_t>> encode_png(ImageView image) {
 }
 
 }  // namespace vsprite
+
+#else  // a build without libpng
+
+namespace vsprite {
+namespace {
+
+Error without_png(const std::string& what) {
+  return {ErrorCode::Unavailable,
+          what + ": PNG files are not read or written by this build (VSPRITE_PNG=OFF)"};
+}
+
+}  // namespace
+
+Result<Image> decode_png(std::span<const std::uint8_t>, const std::string& name) {
+  return without_png(name);
+}
+Result<Image> read_png(const std::string& path) { return without_png(path); }
+Result<std::vector<std::uint8_t>> encode_png(ImageView) { return without_png("picture"); }
+
+}  // namespace vsprite
+
+#endif

@@ -23,16 +23,18 @@ struct Program {
   std::string name;
   gl::Id id = 0;
   std::map<std::string, int, std::less<>> locations;
+  const gl::Device* device = nullptr;  // the renderer's
 
   int location(std::string_view uniform) {
     const auto found = locations.find(uniform);
     if (found != locations.end()) return found->second;
     std::string key(uniform);
-    const int place = gl::find_uniform(id, key.c_str());
+    const int place = gl::find_uniform(*device, id, key.c_str());
     return locations.emplace(std::move(key), place).first->second;
   }
   void set(std::string_view uniform, std::initializer_list<float> values) {
-    gl::set(location(uniform), static_cast<int>(values.size()), {values.begin(), values.size()});
+    gl::set(*device, location(uniform), static_cast<int>(values.size()),
+            {values.begin(), values.size()});
   }
 };
 
@@ -40,9 +42,9 @@ struct Program {
 struct Surface {
   gl::Target main;
   gl::Target copy;
-  void free() {
-    gl::free_target(main);
-    gl::free_target(copy);
+  void free(const gl::Device& device) {
+    gl::free_target(device, main);
+    gl::free_target(device, copy);
   }
 };
 

@@ -1,24 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// The one file that calls SDL2.
-#include "vsprite/sdl.h"
-
+// Window and Audio by SDL2: the one file of the engine that calls it.
 #include <SDL.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
 
+#include "vsprite/window.h"
+
 namespace vsprite {
 namespace {
-
-constexpr float kDeadZone = 0.25f;
-constexpr float kRelease = 0.20f;  // a held stick may sink this far before it counts as let go
-constexpr float kKeepCosine = 0.88701f;  // cos(22.5 + 5 degrees)
 
 /// False where a Linux machine shows neither a sound card nor a sound server: ALSA would look for
 /// one all the same, and complain on stderr line after line.
@@ -91,26 +86,6 @@ Error no_opengl(const char* reason) {
 }
 
 }  // namespace
-
-Direction Input::direction() const noexcept {
-  const Direction from_keys = keys.direction();
-  return from_keys != Direction::None ? from_keys : stick;
-}
-
-bool Input::was_pressed(int key) const noexcept {
-  return std::find(pressed.begin(), pressed.end(), key) != pressed.end();
-}
-
-Direction stick_direction(Vec2 stick, Direction before) noexcept {
-  const float length = std::sqrt(stick.x * stick.x + stick.y * stick.y);
-  const bool held = before != Direction::None && before != Direction::Rest;
-  if (!(length >= (held ? kRelease : kDeadZone))) return Direction::None;
-  if (held) {
-    const Vec2 unit = unit_vector(before);
-    if (stick.x * unit.x + stick.y * unit.y >= kKeepCosine * length) return before;
-  }
-  return nearest_direction(stick);
-}
 
 struct Window::Impl {
   Subsystem video, pads;
@@ -373,7 +348,9 @@ int Window::width() const noexcept { return impl_->width; }
 int Window::height() const noexcept { return impl_->height; }
 float Window::pixel_scale() const noexcept { return impl_->scale; }
 bool Window::headless() const noexcept { return impl_->config.headless; }
-SDL_Window* Window::handle() const noexcept { return impl_->window; }
+void* Window::handle() const noexcept { return impl_->window; }
+
+void* Window::gl_function(const char* name) { return SDL_GL_GetProcAddress(name); }
 
 double Window::seconds() const noexcept {
   return static_cast<double>(SDL_GetPerformanceCounter() - impl_->start) /

@@ -72,7 +72,7 @@ Result<Session> Session::open(const SessionConfig& wanted) {
                                         .full_screen = config.full_screen,
                                         .headless = config.headless});
   if (!window) return std::move(window).error();
-  Result<Renderer> renderer = make_renderer(config.renderer);
+  Result<Renderer> renderer = make_renderer(Window::gl_function, config.renderer);
   if (!renderer) return std::move(renderer).error();
   auto impl = std::make_unique<Impl>(config, std::move(*window), std::move(*renderer));
   impl->resolution = config.resolution;

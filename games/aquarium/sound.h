@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "vsprite/sdl.h"
+#include "vsprite/window.h"
 #include "world.h"
 
 namespace aquarium {

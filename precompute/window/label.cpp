@@ -5,7 +5,7 @@
 #include "window/label.h"
 
 #include <SDL.h>
-#include <epoxy/gl.h>
+#include <SDL_opengl.h>
 #include <imgui.h>
 #include <imgui_impl_opengl3.h>
 #include <imgui_impl_sdl.h>
@@ -47,7 +47,7 @@ class Overlay {
       if (io.Fonts->Fonts.empty() && std::filesystem::exists(font, ignored))
         io.Fonts->AddFontFromFileTTF(font, 17 * scale);
     style(scale);
-    ImGui_ImplSDL2_InitForOpenGL(window.handle(), SDL_GL_GetCurrentContext());
+    ImGui_ImplSDL2_InitForOpenGL(sdl_window(window), SDL_GL_GetCurrentContext());
     ImGui_ImplOpenGL3_Init();
     SDL_AddEventWatch(&Overlay::watch, this);
   }
@@ -108,7 +108,9 @@ Result<void> save_window(const Window& window, const std::string& path) {
   Image picture{window.width(), window.height(), {}};
   const std::size_t row = std::size_t{4} * static_cast<std::size_t>(picture.width);
   picture.rgba.resize(row * static_cast<std::size_t>(picture.height));
-  glReadPixels(0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
+  const auto read_pixels =
+      reinterpret_cast<decltype(&glReadPixels)>(Window::gl_function("glReadPixels"));
+  read_pixels(0, 0, picture.width, picture.height, GL_RGBA, GL_UNSIGNED_BYTE, picture.rgba.data());
   for (std::size_t a = 0, b = static_cast<std::size_t>(picture.height); a + 1 < b--; ++a)
     std::swap_ranges(picture.rgba.begin() + static_cast<std::ptrdiff_t>(a * row),
                      picture.rgba.begin() + static_cast<std::ptrdiff_t>((a + 1) * row),
@@ -231,7 +233,7 @@ Result<void> label_window(LabelSession& session, const LabelWindowOptions& optio
   if (!window)
     return Error{window.error().code,
                  window.error().message + "; or give the answers without one: --answers FILE"};
-  auto renderer = make_renderer({});
+  auto renderer = make_renderer(Window::gl_function);
   if (!renderer) return renderer.error();
   return Sitting(session, *keys, options).run(*window, *renderer);
 }

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT
 
 # vsprite_window - the windows of the tool; the one part of precompute that may link the renderer.
-if(NOT VSPRITE_DRAW)
+if(NOT VSPRITE_DRAW OR NOT VSPRITE_WINDOW)
   return()
 endif()
 # Debian's Dear ImGui holds its SDL2 and OpenGL 3 backends; their headers lie one folder deeper.
-pkg_check_modules(WINDOW_DEPS REQUIRED IMPORTED_TARGET sdl2 epoxy)
+pkg_check_modules(WINDOW_DEPS REQUIRED IMPORTED_TARGET sdl2)
 pkg_check_modules(IMGUI REQUIRED imgui)
 find_path(IMGUI_BACKENDS imgui_impl_sdl.h PATHS ${IMGUI_INCLUDE_DIRS} PATH_SUFFIXES backends imgui/backends REQUIRED)
 add_library(vsprite_window STATIC window/label.cpp window/label_keys.cpp window/label_view.cpp

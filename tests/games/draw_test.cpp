@@ -290,7 +290,7 @@ TEST_F(Draw, OpensAndClosesAHundredTimesWithoutGrowth) {
 }
 
 TEST(DrawWithoutContext, SaysSo) {
-  const Result<Renderer> renderer = make_renderer();
+  const Result<Renderer> renderer = make_renderer(Window::gl_function);
   ASSERT_FALSE(renderer);
   EXPECT_EQ(renderer.error().code, ErrorCode::Unavailable);
 }

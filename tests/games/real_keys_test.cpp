@@ -8,7 +8,7 @@
 #include <string>
 
 #include "vsprite/draw.h"
-#include "vsprite/sdl.h"
+#include "vsprite/window.h"
 
 namespace vsprite {
 namespace {
@@ -32,7 +32,7 @@ void xdotool(const std::string& words) {
 TEST(RealKeys, SteerAWindow) {
   Result<Window> window = Window::open({.title = "real keys", .width = 320, .height = 240});
   if (!window) GTEST_SKIP() << window.error().message;
-  const Result<Renderer> renderer = make_renderer();
+  const Result<Renderer> renderer = make_renderer(Window::gl_function);
   ASSERT_TRUE(renderer) << renderer.error().message;
   const auto is = [](Direction d) {
     return [d](const Input& input) { return input.direction() == d; };

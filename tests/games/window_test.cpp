@@ -8,7 +8,7 @@
 #include "support/gl_stage.h"
 #include "vsprite/compose.h"
 #include "vsprite/draw.h"
-#include "vsprite/sdl.h"
+#include "vsprite/window.h"
 
 namespace vsprite {
 namespace {
@@ -137,7 +137,7 @@ TEST(Gles, DrawsTheSameAsDesktopOpenGl) {
   SDL_Window* window = SDL_CreateWindow("es", 0, 0, 64, 64, SDL_WINDOW_OPENGL);
   SDL_GLContext context = window != nullptr ? SDL_GL_CreateContext(window) : nullptr;
   if (context != nullptr) {
-    Result<Renderer> renderer = make_renderer();
+    Result<Renderer> renderer = make_renderer(Window::gl_function);
     ASSERT_TRUE(renderer) << renderer.error().message;
     EXPECT_EQ(renderer->device().rfind("OpenGL ES", 0), 0u) << renderer->device();
     Image canvas = make_image(64, 64, 40, 60, 90);

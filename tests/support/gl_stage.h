@@ -14,7 +14,7 @@
 
 #include "vsprite/draw.h"
 #include "vsprite/image.h"
-#include "vsprite/sdl.h"
+#include "vsprite/window.h"
 
 namespace vsprite::testing {
 
@@ -27,7 +27,7 @@ class GlTest : public ::testing::Test {
     Result<Window> window = Window::open({.width = 320, .height = 240, .headless = true});
     if (!window) GTEST_SKIP() << window.error().message;
     window_.emplace(std::move(*window));
-    Result<Renderer> renderer = make_renderer(config);
+    Result<Renderer> renderer = make_renderer(Window::gl_function, config);
     ASSERT_TRUE(renderer) << renderer.error().message;
     renderer_.emplace(std::move(*renderer));
   }

@@ -17,8 +17,8 @@
 //
 // Positions are frame pixels, y down, moved and scaled by the camera. Everything appears in the
 // order of the calls; neighbours of one kind go to the GPU as one batch. A Renderer needs an
-// OpenGL 3.3 core or ES 3 context that is current in its thread from make_renderer until the
-// destructor has run.
+// OpenGL 3.3 core or ES 3 (WebGL 2) context that is current in its thread from make_renderer until
+// the destructor has run; it calls no window system and links no OpenGL library.
 #pragma once
 
 #include <array>
@@ -38,6 +38,10 @@
 #include "vsprite/stream.h"
 
 namespace vsprite {
+
+/// The address of an OpenGL function of the current context, by its whole name; null if there is
+/// none: Window::gl_function, SDL_GL_GetProcAddress, eglGetProcAddress, ...
+using GlLoader = void* (*)(const char* name);
 
 struct RendererConfig {
   std::size_t texture_budget = std::size_t{128} << 20;  ///< bytes of cached pictures on the GPU
@@ -114,7 +118,8 @@ class Renderer {
   int width() const noexcept;  ///< of the frame or layer being drawn
   int height() const noexcept;
   const RendererStats& stats() const noexcept;
-  /// "OpenGL 4.5 llvmpipe", for overlays and reports.
+  /// "OpenGL 4.5, llvmpipe", for overlays and reports; it says "8 bits a channel" where the driver
+  /// cannot draw half floats: the same pictures, with coarser gradients.
   const std::string& device() const noexcept;
 
   struct Impl;
@@ -124,8 +129,9 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Asks `load` for the functions of the current context, now and never again.
 /// Errors: Unavailable (no current context, or older than OpenGL 3.3 / ES 3).
-Result<Renderer> make_renderer(const RendererConfig& config = {});
+Result<Renderer> make_renderer(GlLoader load, const RendererConfig& config = {});
 
 /// Width of the longest line and height of all, game pixels.
 Vec2 measure_text(std::string_view text, const TextStyle& style = {}) noexcept;

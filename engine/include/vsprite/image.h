@@ -57,7 +57,7 @@ void unpremultiply(Image& image) noexcept;
 
 /// Reads a PNG of any kind as straight sRGB RGBA (16-bit samples are scaled, no gamma is applied).
 /// Errors: NotFound, CannotRead, BadFormat, CorruptData, LimitExceeded (over 65,535 a side),
-/// OutOfMemory.
+/// OutOfMemory; Unavailable, like the next two, in a build without libpng (VSPRITE_PNG=OFF).
 Result<Image> read_png(const std::string& path);
 /// The same from memory; `name` stands in messages.
 Result<Image> decode_png(std::span<const std::uint8_t> bytes, const std::string& name);

@@ -22,7 +22,7 @@
 #include "vsprite/draw.h"
 #include "vsprite/geometry.h"
 #include "vsprite/result.h"
-#include "vsprite/sdl.h"
+#include "vsprite/window.h"
 
 namespace vsprite {
 
