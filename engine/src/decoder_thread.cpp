@@ -5,9 +5,15 @@
 #include <new>
 #include <utility>
 
+#include "memory.h"
+
 namespace vsprite::detail {
 
-DecoderThread::DecoderThread(const Sprite& sprite) : sprite_(sprite), thread_([this] { run(); }) {}
+DecoderThread::DecoderThread(const Sprite& sprite)
+    : sprite_(sprite), thread_([this, memory = current_memory()] {
+        const MemoryScope scope(memory);
+        run();
+      }) {}
 
 DecoderThread::~DecoderThread() {
   {

@@ -75,15 +75,25 @@ ByteSource ByteSource::borrow(std::span<const std::uint8_t> bytes, std::string n
   return source;
 }
 
+ByteSource ByteSource::call(PackReader reader) {
+  ByteSource source;
+  source.size_ = reader.bytes;
+  source.name_ = std::move(reader.name);
+  source.read_ = std::move(reader.read);
+  return source;
+}
+
 ByteSource::ByteSource(ByteSource&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
       memory_(other.memory_),
+      read_(std::move(other.read_)),
       size_(other.size_),
       name_(std::move(other.name_)) {}
 
 ByteSource& ByteSource::operator=(ByteSource&& other) noexcept {
   std::swap(file_, other.file_);
   std::swap(memory_, other.memory_);
+  std::swap(read_, other.read_);
   std::swap(size_, other.size_);
   std::swap(name_, other.name_);
   return *this;
@@ -95,6 +105,12 @@ ByteSource::~ByteSource() {
 
 Result<void> ByteSource::read(std::uint64_t offset, std::span<std::uint8_t> out) const {
   assert(offset <= size_ && out.size() <= size_ - offset);
+  if (read_) {
+    if (out.empty() || read_(offset, out)) return {};
+    return Error{ErrorCode::CannotRead, name_ + ": its reader failed at byte " +
+                                            std::to_string(offset) + " of " +
+                                            std::to_string(size_)};
+  }
   if (file_ < 0) {
     if (!out.empty()) std::memcpy(out.data(), memory_.data() + offset, out.size());
     return {};

@@ -12,16 +12,19 @@
 #include <string>
 #include <vector>
 
+#include "vsprite/pack.h"
 #include "vsprite/result.h"
 
 namespace vsprite::detail {
 
-/// A regular file, or bytes in memory that the caller keeps alive. Reading is thread-safe.
+/// A regular file, bytes in memory that the caller keeps alive, or a caller's reader. Reading is
+/// thread-safe.
 class ByteSource {
  public:
   /// Errors: NotFound, CannotRead (also: not a regular file).
   static Result<ByteSource> open(const std::string& path);
   static ByteSource borrow(std::span<const std::uint8_t> bytes, std::string name);
+  static ByteSource call(PackReader reader);
   ByteSource() = default;
   ByteSource(ByteSource&& other) noexcept;
   ByteSource& operator=(ByteSource&& other) noexcept;
@@ -35,6 +38,7 @@ class ByteSource {
  private:
   int file_ = -1;
   std::span<const std::uint8_t> memory_;
+  std::function<bool(std::uint64_t, std::span<std::uint8_t>)> read_;  // empty: one of the two above
   std::uint64_t size_ = 0;
   std::string name_;
 };

@@ -146,6 +146,14 @@ Result<Sprite> load_pack(const std::string& path) {
   return detail::load_pack_from(std::move(*source));
 }
 
+Result<Sprite> load_pack(PackReader reader) {
+  return detail::load_pack_from(detail::ByteSource::call(std::move(reader)));
+}
+
+Result<std::vector<PackIssue>> verify_pack(PackReader reader) {
+  return detail::verify_pack_from(detail::ByteSource::call(std::move(reader)));
+}
+
 Result<std::vector<PackIssue>> verify_pack(const std::string& path) {
   auto source = detail::ByteSource::open(path);
   if (!source) return source.error();

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,18 @@ inline constexpr std::uint16_t kPackMinor = 0;
 /// Errors: NotFound, CannotRead, BadFormat, UnsupportedVersion, CorruptData, LimitExceeded,
 /// OutOfMemory.
 Result<Sprite> load_pack(const std::string& path);
+
+/// A pack that lies elsewhere: in memory, in an archive, behind a network.
+struct PackReader {
+  std::uint64_t bytes = 0;  ///< of the whole pack
+  std::string name;         ///< for messages
+  /// Fills `out` with the bytes from `offset` on, all of which lie inside `bytes`; false where that
+  /// is not possible. Called by any thread that decodes a picture, by several at once; must not
+  /// throw.
+  std::function<bool(std::uint64_t offset, std::span<std::uint8_t> out)> read;
+};
+/// The same from there; the sprite keeps the reader. Errors: those of load_pack.
+Result<Sprite> load_pack(PackReader reader);
 
 /// Hands out the straight-alpha picture of a kept sample; called once each, in ascending order.
 using FrameSource = std::function<Result<Image>(std::uint32_t sample)>;
@@ -52,6 +65,7 @@ struct PackIssue {
 /// first wrong table, after all wrong sums, or after 1,000 findings.
 /// Errors (as opposed to issues): NotFound, CannotRead, OutOfMemory.
 Result<std::vector<PackIssue>> verify_pack(const std::string& path);
+Result<std::vector<PackIssue>> verify_pack(PackReader reader);
 
 /// What a file holds, for people.
 struct PackSection {
