@@ -76,6 +76,25 @@ Classifier learn(const LabelledPairs& pairs) {
   return fit_classifier(pairs, all, measure_spread(pairs.vectors), {});
 }
 
+/// What a player is shown: of the folder's transitions at T <= `cap`, how many are a visible jump, by
+/// the pair that is dearer to the eye of the two that T is the mean of.
+void print_transitions(const TransitionFile& file, const testing::PoseTruth& truth, float cap) {
+  std::size_t jumps = 0, visible = 0;
+  double worst = 0;
+  for (std::size_t i = 0; i + 1 < file.costs.row_start.size(); ++i) {
+    for (std::uint32_t t = file.costs.row_start[i]; t < file.costs.row_start[i + 1]; ++t) {
+      const Transition& jump = file.costs.transitions[t];
+      if (jump.cost <= 0 || jump.cost > cap) continue;
+      const int from = static_cast<int>(i), to = static_cast<int>(jump.to);
+      const double apart = std::max(truth.difference(from, to - 1), truth.difference(from + 1, to));
+      ++jumps, visible += apart > truth.limit(), worst = std::max(worst, apart);
+    }
+  }
+  std::printf("transitions at T <= %.2f: %zu jumps, %.2f %% visible, the worst %.1f px off\n",
+              double{cap}, jumps, 100 * static_cast<double>(visible) / static_cast<double>(jumps),
+              worst);
+}
+
 /// Answers up to kMost questions; `judged(n, classifier)` after each of the counts in the table.
 template <class Judged>
 void run(const FeatureSet& set, const testing::PoseTruth& truth, Way way, std::uint64_t seed,
@@ -164,6 +183,8 @@ int main(int argc, char** argv) {
   const bool as_good = cost(Way::Active, 100) <= cost(Way::AnyPair, kMost) &&
                        cost(Way::Active, 100) <= 1.05 * cost(Way::Doubtful, kMost);
   const bool few = tables[0][0].of_jumps <= 0.02 * tables[0][0].seeds;
+  if (const auto file = project->transitions(set.rows.size()))
+    for (const float cap : {1.0f, 0.8f, 0.75f, 0.7f}) print_transitions(*file, truth, cap);
   std::printf("100 asked do as well as 1,000 random: %s\n", as_good ? "yes" : "NO");
   std::printf("bootstrap accepts at most 2 %% of the jumps: %s\n", few ? "yes" : "NO");
   return as_good && few ? 0 : 1;
