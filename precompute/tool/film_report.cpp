@@ -217,7 +217,9 @@ std::string cost_histogram(const Sprite& sprite) {
            fixed(125 - h) + "' width='16' height='" + fixed(h) + "'><title>" +
            std::to_string(bins[k]) + "</title></rect>";
   }
-  return out + "<text x='0' y='143'>0</text><text x='385' y='143'>1 (threshold)</text></svg>";
+  return out +
+         "<text x='0' y='143'>0</text><text x='400' y='143' text-anchor='end'>1 "
+         "(threshold)</text></svg>";
 }
 
 std::string classifier_table(const Classifier& classifier) {
@@ -229,18 +231,58 @@ std::string classifier_table(const Classifier& classifier) {
   return out + "</table>";
 }
 
-// The plain figures of a stage, one row each.
+std::string value_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  if (value.is_number_float()) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value.get<double>());
+    return text;
+  }
+  if (!value.is_array()) return value.dump();
+  std::string out;
+  for (const Json& entry : value) out += (out.empty() ? "" : ", ") + value_text(entry);
+  return out;
+}
+
+// A row for every figure, those of an object below its name; lists of objects have a place of their
+// own on the page or are too long for it.
+void add_rows(const std::string& key, const Json& value, std::string& out) {
+  if (value.is_object()) {
+    for (const auto& [inner, entry] : value.items()) add_rows(key + ": " + inner, entry, out);
+    return;
+  }
+  const bool listed =
+      value.is_array() && (value.size() > 12 || (!value.empty() && value.front().is_structured()));
+  if (listed || value.is_null() || (value.is_array() && value.empty())) return;
+  std::string words = key;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  out += "<tr><td>" + escaped(words) + "</td><td>" + escaped(value_text(value)) + "</td></tr>";
+}
+
 std::string record_table(const Json& records) {
   std::string out;
   for (const auto& [stage, result] : records.items()) {
-    out += "<h3>" + escaped(stage) + "</h3><table>";
-    for (const auto& [key, value] : result.items()) {
-      if (value.is_structured() && value.size() > 12) continue;
-      out += "<tr><td>" + escaped(key) + "</td><td>" +
-             escaped(value.is_string() ? value.get<std::string>() : value.dump()) + "</td></tr>";
-    }
-    out += "</table>";
+    out += "<details><summary>" + escaped(stage) + "</summary><table class='figures'>";
+    for (const auto& [key, value] : result.items())
+      if (key != "dropped" && key != "roc") add_rows(key, value, out);
+    out += "</table></details>";
   }
+  return out;
+}
+
+std::string embedded(const std::string& png, const std::string& title) {
+  const std::vector<std::uint8_t> bytes(png.begin(), png.end());
+  return "<img class='whole' alt='" + escaped(title) + "' src='data:image/png;base64," +
+         base64(bytes) + "'>";
+}
+
+std::string dropped_pictures(const FilmReport& report) {
+  std::string out;
+  for (const FilmReport::Dropped& d : report.dropped)
+    out += "<figure>" + embedded(d.png, d.reason) + "<figcaption>" + escaped(d.reason) + ": " +
+           fixed(100 * d.share) + " % of the frames, for instance " + std::to_string(d.frame) +
+           "</figcaption></figure>";
   return out;
 }
 
@@ -259,7 +301,10 @@ constexpr const char* kStyle =
     ".strip img{background:repeating-conic-gradient(#bbb 0 25%,#eee 0 50%) 0 0/16px 16px}"
     ".grid{fill:none;stroke:#ccc}.rose{fill:#1f6fb4;opacity:.7}.speed{fill:#b4472c}"
     ".clip{fill:#888}.arc{fill:none;opacity:.5}.bar{fill:#1f6fb4}text{font-size:12px}"
-    "li{margin:.3em 0}</style>";
+    "li{margin:.3em 0}.whole{max-width:100%}figure{display:inline-block;width:45%;margin:0 2% 1em "
+    "0}"
+    ".figures td{text-align:left;overflow-wrap:anywhere}.figures td:first-child{width:40%}"
+    "summary{cursor:pointer;font-weight:bold;margin:.5em 0}</style>";
 
 }  // namespace
 
@@ -311,12 +356,17 @@ Result<std::string> report_html(const Sprite& sprite, const FilmReport& report) 
       fixed(report.advice.standing) + " s more); dots: its speed. " +
       std::to_string(report.advice.unused.size()) +
       " samples were shown in no turn and in ten minutes of random goals.</p>" +
-      rose(report.advice) + "\n<h2>Mattes</h2>" + *pictures +
-      "\n<h2>Transitions</h2><p>Clips in a row, and for one sample in " +
-      std::to_string(std::max<std::size_t>(1, sprite.samples().size() / 400)) +
-      " its cheapest jump, blue where nobody sees it.</p>" + graph(sprite) +
-      "<p>Costs of all jumps:</p>" + cost_histogram(sprite);
-  if (report.classifier) page += "\n<h2>Classifier</h2>" + classifier_table(*report.classifier);
+      rose(report.advice) + "\n<h2>Mattes</h2>" + *pictures;
+  if (!report.contact.empty())
+    page += "<p>Spread over the film, as it was cut out:</p>" +
+            embedded(report.contact, "contact sheet");
+  if (!report.dropped.empty()) page += "\n<h2>Left out</h2>" + dropped_pictures(report);
+  page += "\n<h2>Transitions</h2><p>Clips in a row, and for one sample in " +
+          std::to_string(std::max<std::size_t>(1, sprite.samples().size() / 400)) +
+          " its cheapest jump, blue where nobody sees it.</p>" + graph(sprite) +
+          "<p>Costs of all jumps:</p>" + cost_histogram(sprite);
+  if (report.classifier)
+    page += "\n<h2>Classifier</h2>" + classifier_table(*report.classifier) + report.roc;
   if (!report.records.empty()) page += "\n<h2>Stages</h2>" + record_table(report.records);
   return page + "\n</html>\n";
 }

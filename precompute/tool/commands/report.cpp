@@ -22,6 +22,17 @@ void look_into_folder(const std::string& folder, FilmReport& report) {
     if (const Json* record = project->record(stage))
       report.records[stage] = record->value("result", Json::object());
   }
+  if (auto roc = read_file(project->path("roc.svg"))) report.roc = std::move(*roc);
+  if (auto contact = read_file(project->path("contact.png"))) report.contact = std::move(*contact);
+  const Json segment = report.records.value("segment", Json::object());
+  const Json dropped = segment.value("dropped", Json::object());
+  for (const auto& [reason, found] : dropped.items()) {
+    if (!found.is_object()) continue;
+    auto png = read_file(project->path(found.value("picture", "")));
+    if (png)
+      report.dropped.push_back(
+          {reason, found.value("frame", 0), found.value("share", 0.0), std::move(*png)});
+  }
 }
 
 }  // namespace
