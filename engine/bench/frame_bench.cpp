@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// Decoding the pictures of a pack, one core: ours beside libpng, zstd and LZ4 on the same pixels.
+// Decoding the pictures of a pack, one core: ours beside libpng, QOI, zstd and LZ4 on the same
+// pixels.
 //   VSPRITE_PACK=FILE.vsp frame_bench
 // bytes_per_second counts RGBA delivered; `ratio` is RGBA bytes / compressed bytes. Ours includes
-// checking the bytes; PNG holds straight alpha, as in a work folder.
+// checking the bytes; PNG and QOI hold straight alpha, as in a work folder.
 #include <benchmark/benchmark.h>
 #include <lz4.h>
 #include <lz4hc.h>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "pack_format.h"
+#include "qoi.h"
 
 namespace vsprite {
 namespace {
@@ -105,6 +107,23 @@ void BM_LibPng(benchmark::State& state) {
       });
 }
 BENCHMARK(BM_LibPng);
+
+void BM_Qoi(benchmark::State& state) {
+  const auto straight = [](Image image) {
+    unpremultiply(image);
+    return image;
+  };
+  for (const Image& image : pictures()) {
+    Image out = image;
+    if (!bench::decode_qoi(bench::encode_qoi(straight(image)), out) ||
+        out.rgba != straight(image).rgba)
+      return state.SkipWithError("not the same pixels");
+  }
+  run(
+      state, [&](const Image& image) { return bench::encode_qoi(straight(image)); },
+      [](const Bytes& bytes, Image& out) { return bench::decode_qoi(bytes, out); });
+}
+BENCHMARK(BM_Qoi);
 
 void BM_Zstd(benchmark::State& state) {
   const int level = static_cast<int>(state.range(0));

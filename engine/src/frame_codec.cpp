@@ -18,7 +18,7 @@
 namespace vsprite::detail {
 namespace {
 
-constexpr std::size_t kSlack = 8;        // a block is read as eight bytes
+constexpr std::size_t kSlack = 64;       // two blocks are read as so many bytes
 constexpr std::uint32_t kLeastGap = 16;  // transparent pixels that end a run
 
 // Numbers of the row part: one byte each where the width allows, else two.
@@ -61,13 +61,19 @@ bool read_row(RowNumbers& numbers, FrameParts& parts) {
 
 std::size_t block_count(std::size_t pixels) { return (pixels + kBlock - 1) / kBlock; }
 
+// Bytes of a block, by its codes.
+constexpr std::array<std::uint8_t, 4096> kBlockBytes = [] {
+  std::array<std::uint8_t, 4096> bytes{};
+  for (unsigned codes = 0; codes < 4096; ++codes)
+    for (unsigned shift = 0; shift < 12; shift += 3)
+      bytes[codes] = static_cast<std::uint8_t>(bytes[codes] + kWidths[codes >> shift & 7]);
+  return bytes;
+}();
+
 // Bytes of all residuals, from the widths of the blocks.
 std::size_t residual_bytes(const std::uint8_t* widths, std::size_t blocks) {
   std::size_t sum = 0;
-  for (std::size_t b = 0; b < blocks; ++b) {
-    const unsigned codes = block_codes(widths, b);
-    for (unsigned shift = 0; shift < 12; shift += 3) sum += kWidths[codes >> shift & 7];
-  }
+  for (std::size_t b = 0; b < blocks; ++b) sum += kBlockBytes[block_codes(widths, b) & 0xFFF];
   return sum;
 }
 
