@@ -5,7 +5,7 @@ include(${PROJECT_SOURCE_DIR}/shaders/embed.cmake)
 # The renderer: OpenGL by a loader, no library of any window system.
 find_path(GL_HEADERS GL/glcorearb.h REQUIRED)
 add_library(vsprite_draw
-  src/atlas.cpp src/draw.cpp src/draw_effect.cpp src/draw_text.cpp src/font.cpp src/gl.cpp)
+  src/atlas.cpp src/draw.cpp src/draw_effect.cpp src/draw_puppet.cpp src/draw_text.cpp src/font.cpp src/gl.cpp)
 add_library(vsprite::draw ALIAS vsprite_draw)
 set_target_properties(vsprite_draw PROPERTIES EXPORT_NAME draw)
 target_include_directories(vsprite_draw PRIVATE src)
@@ -15,6 +15,7 @@ target_sources(vsprite_draw PUBLIC FILE_SET HEADERS BASE_DIRS include FILES
   include/vsprite/draw.h include/vsprite/paint.h)
 set_target_properties(vsprite_draw PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
 vsprite_embed_shaders(vsprite_draw ${PROJECT_SOURCE_DIR}/shaders/sprite)
+vsprite_embed_shaders(vsprite_draw ${PROJECT_SOURCE_DIR}/shaders/puppet)
 
 # Window, keys, sound: one file per platform.
 if(VSPRITE_WINDOW)

@@ -59,6 +59,7 @@ Renderer::Impl::~Impl() {
   for (gl::Stream* s : {&sprite_stream, &shape_stream, &flat_stream, &empty_stream}) {
     gl::free_stream(device, *s);
   }
+  free_puppets();
   for (Surface& layer : layers) layer.free(device);
   frame.free(device);
   gl::free_target(device, encoded);
@@ -97,6 +98,7 @@ Result<void> Renderer::Impl::set_up() {
 void Renderer::Impl::flush() {
   const Kind what = std::exchange(kind, Kind::Nothing);
   if (what == Kind::Nothing || batch.empty()) return;
+  if (what == Kind::Puppets) return flush_puppets();
   const bool sprites = what == Kind::Sprites;
   Program* variant = sprites ? sprite_program(taps, old_page >= 0) : nullptr;
   Program& program = variant != nullptr     ? *variant
@@ -160,6 +162,7 @@ void Renderer::Impl::select(Kind wanted, BlendMode mode, int wanted_page, int wa
 void Renderer::Impl::use_surface(Surface* surface) {
   flush();
   target = surface;
+  puppets.slices = 0;
   camera = {};
   if (surface != nullptr) gl::draw_to(device, surface->main);
 }

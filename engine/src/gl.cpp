@@ -21,23 +21,25 @@ namespace vsprite::detail::gl {
 
 #define VSPRITE_GL_FUNCTIONS(F)                                                                    \
   F(ActiveTexture)                                                                                 \
-  F(AttachShader)                                                                                  \
-  F(BindBuffer) F(BindFramebuffer) F(BindTexture) F(BindVertexArray) F(BlendEquation) F(BlendFunc) \
-      F(BlendFuncSeparate) F(BlitFramebuffer) F(BufferData) F(CheckFramebufferStatus) F(Clear)     \
-          F(ClearColor) F(ColorMask) F(CompileShader) F(CreateProgram) F(CreateShader)             \
-              F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) F(DeleteShader)              \
-                  F(DeleteTextures) F(DeleteVertexArrays) F(Disable) F(DrawArrays)                 \
-                      F(DrawArraysInstanced) F(Enable) F(EnableVertexAttribArray) F(Finish)        \
-                          F(FramebufferTexture2D) F(GenBuffers) F(GenFramebuffers) F(GenTextures)  \
-                              F(GenVertexArrays) F(GetIntegerv) F(GetProgramInfoLog)               \
-                                  F(GetProgramiv) F(GetShaderInfoLog) F(GetShaderiv) F(GetString)  \
-                                      F(GetUniformLocation) F(LinkProgram) F(PixelStorei)          \
-                                          F(ReadPixels) F(ShaderSource) F(TexImage2D)              \
-                                              F(TexParameteri) F(TexSubImage2D) F(Uniform1fv)      \
-                                                  F(Uniform1i) F(Uniform2fv) F(Uniform3fv)         \
-                                                      F(Uniform4fv) F(UseProgram)                  \
-                                                          F(VertexAttribDivisor)                   \
-                                                              F(VertexAttribPointer) F(Viewport)
+  F(AttachShader) F(BindBuffer) F(BindFramebuffer) F(BindRenderbuffer) F(BindTexture) F(           \
+      BindVertexArray) F(BlendEquation) F(BlendFunc) F(BlendFuncSeparate) F(BlitFramebuffer)       \
+      F(BufferData) F(CheckFramebufferStatus) F(Clear) F(ClearColor) F(ColorMask) F(CompileShader) \
+          F(CreateProgram) F(CreateShader) F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) \
+              F(DeleteRenderbuffers) F(DeleteShader) F(DeleteTextures) F(DeleteVertexArrays)       \
+                  F(DepthFunc) F(DepthMask) F(Disable) F(DrawArrays) F(DrawArraysInstanced)        \
+                      F(Enable) F(EnableVertexAttribArray) F(Finish) F(FramebufferRenderbuffer)    \
+                          F(FramebufferTexture2D) F(GenBuffers) F(GenFramebuffers)                 \
+                              F(GenRenderbuffers) F(GenTextures) F(GenVertexArrays) F(GetIntegerv) \
+                                  F(GetProgramInfoLog) F(GetProgramiv) F(GetShaderInfoLog)         \
+                                      F(GetShaderiv) F(GetString) F(GetUniformLocation)            \
+                                          F(LinkProgram) F(PixelStorei) F(ReadPixels)              \
+                                              F(RenderbufferStorage) F(ShaderSource) F(TexImage2D) \
+                                                  F(TexParameteri) F(TexSubImage2D) F(Uniform1fv)  \
+                                                      F(Uniform1i) F(Uniform2fv) F(Uniform3fv)     \
+                                                          F(Uniform4fv) F(UseProgram)              \
+                                                              F(VertexAttribDivisor)               \
+                                                                  F(VertexAttribPointer)           \
+                                                                      F(Viewport)
 
 struct Functions {
 #define VSPRITE_GL_MEMBER(name) decltype(&::gl##name) name = nullptr;
@@ -246,8 +248,22 @@ void bind(const Device& device, int unit, Id texture) {
 
 void free_texture(const Device& device, Id texture) { device->DeleteTextures(1, &texture); }
 
+Id upload_numbers(const Device& device, Id texture, int width, int height, const float* numbers) {
+  const bool fresh = texture == 0;
+  if (fresh) device->GenTextures(1, &texture);
+  bind(device, 0, texture);
+  if (fresh) {
+    device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  }
+  device->PixelStorei(GL_UNPACK_ALIGNMENT, 8);
+  device->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+  device->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, numbers);
+  return texture;
+}
+
 Result<Target> make_target(const Device& device, int width, int height, bool encoded) {
-  Target target{0, 0, width, height};
+  Target target{0, 0, 0, width, height};
   if (width > device.max_size && device.max_size > 0) {
     return Error{ErrorCode::Unavailable, "renderer: a picture of " + std::to_string(width) + " x " +
                                              std::to_string(height) + ", at most " +
@@ -277,7 +293,34 @@ Result<Target> make_target(const Device& device, int width, int height, bool enc
 void free_target(const Device& device, Target& target) {
   if (target.framebuffer != 0) device->DeleteFramebuffers(1, &target.framebuffer);
   if (target.texture != 0) device->DeleteTextures(1, &target.texture);
+  if (target.depth != 0) device->DeleteRenderbuffers(1, &target.depth);
   target = {};
+}
+
+bool clear_depth(const Device& device, Target& target) {
+  if (target.depth == 0) {
+    device->GenRenderbuffers(1, &target.depth);
+    device->BindRenderbuffer(GL_RENDERBUFFER, target.depth);
+    device->RenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, target.width, target.height);
+    device->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
+                                    target.depth);
+  }
+  if (device->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    device->FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, 0);
+    device->DeleteRenderbuffers(1, &target.depth);
+    target.depth = 0;
+    return false;
+  }
+  device->DepthMask(GL_TRUE);
+  device->Clear(GL_DEPTH_BUFFER_BIT);
+  return true;
+}
+
+void use_depth(const Device& device, bool on) {
+  if (!on) return device->Disable(GL_DEPTH_TEST);
+  device->Enable(GL_DEPTH_TEST);
+  device->DepthFunc(GL_LEQUAL);
+  device->DepthMask(GL_TRUE);
 }
 
 void draw_to(const Device& device, const Target& target) {

@@ -42,6 +42,7 @@ struct Device {
 struct Target {
   Id framebuffer = 0;
   Id texture = 0;
+  Id depth = 0;  ///< a renderbuffer; 0: none yet
   int width = 0;
   int height = 0;
 };
@@ -75,10 +76,16 @@ Id make_texture(const Device& device, int width, int height);
 void upload(const Device& device, Id texture, const Rect& rect, const std::uint16_t* halves);
 void bind(const Device& device, int unit, Id texture);
 void free_texture(const Device& device, Id texture);
+/// Numbers for texelFetch: width * height * 4 floats replace what `texture` (0: a new one) held.
+Id upload_numbers(const Device& device, Id texture, int width, int height, const float* numbers);
 
 /// `encoded`: plain RGBA8 to read back from; else linear light. Errors: Unavailable.
 Result<Target> make_target(const Device& device, int width, int height, bool encoded);
 void free_target(const Device& device, Target& target);
+/// Makes every depth of the target, which is drawn to, the farthest. False without memory for it.
+bool clear_depth(const Device& device, Target& target);
+/// From now on: nearer or as near wins, and is kept. `draw_to` and `false` end it.
+void use_depth(const Device& device, bool on);
 /// Draws go to `target` from now on.
 void draw_to(const Device& device, const Target& target);
 /// Draws go to framebuffer `framebuffer`, values as they are.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// renderer.h - what a Renderer holds; shared by draw.cpp, draw_text.cpp and draw_effect.cpp.
+// renderer.h - what a Renderer holds; shared by draw.cpp, draw_*.cpp.
 #pragma once
 
 #include <array>
@@ -52,7 +52,27 @@ constexpr int kPageSide = 2048;
 constexpr int kMostTaps = 4;            // samples along a pixel's footprint
 constexpr std::size_t kTexelBytes = 8;  // four half floats
 
-enum class Kind { Nothing, Sprites, Shapes, Triangles };
+enum class Kind { Nothing, Sprites, Shapes, Triangles, Puppets };
+
+/// What the GPU holds of a puppet.
+struct Skin {
+  gl::Id page = 0;    // its views, each with a border of zeros
+  gl::Id places = 0;  // for every view its control points, texels of the page; then its rectangle
+  int width = 0, height = 0;
+  std::size_t views = 0, points = 0;
+};
+
+/// All that is kept for drawing puppets, made with the first skin.
+struct PuppetBrush {
+  Program program;
+  gl::Stream stream;
+  gl::Id pose = 0;
+  std::vector<Skin> skins;
+  std::vector<float> poses;  // of the batch
+  std::vector<std::uint32_t> order;
+  std::vector<float> keys;
+  int slices = 0;  // of depth, used since it was cleared; 0: it has to be
+};
 
 /// One instance of the sprite shader, whose words these are.
 struct Picture {
@@ -85,6 +105,7 @@ struct Renderer::Impl {
   Effect layer_effect;
   std::vector<detail::Surface> layers;
   detail::Surface frame;
+  detail::PuppetBrush puppets;
   detail::gl::Target encoded;
   detail::Surface* target = nullptr;  // null: drawing does nothing
   bool in_frame = false;
@@ -109,6 +130,9 @@ struct Renderer::Impl {
 
   Result<void> set_up();
   void flush();
+  void flush_puppets();
+  Result<void> set_up_puppets();
+  void free_puppets();
   void select(detail::Kind wanted, BlendMode mode, int wanted_page = -1, int wanted_old = -1,
               int wanted_taps = 1);
   void use_surface(detail::Surface* surface);

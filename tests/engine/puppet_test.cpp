@@ -7,56 +7,24 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/tiny_puppet.h"
 #include "vsprite/compose.h"
 #include "vsprite/random.h"
 
 namespace vsprite {
 namespace {
 
-// A network without centres: always these outputs, plus `slope` times the one parameter.
-RbfNetwork straight(std::vector<double> constant, std::vector<double> slope) {
-  RbfNetwork net;
-  net.kernel = Kernel::Gaussian, net.degree = 1, net.dims = 1;
-  net.outputs = static_cast<int>(constant.size());
-  net.polynomial = std::move(constant);
-  net.polynomial.insert(net.polynomial.end(), slope.begin(), slope.end());
-  return net;
-}
-
-Puppet still_puppet(Image picture, const std::vector<Vec2>& points, std::vector<Face> faces) {
-  Puppet puppet;
-  puppet.name = "still";
-  puppet.parameters = {{"t", 0, 1, 0}};
-  std::vector<double> out;
-  for (const Vec2 p : points) out.insert(out.end(), {double{p.x}, double{p.y}});
-  out.insert(out.end(), {0, 0});              // barycentre
-  out.insert(out.end(), points.size(), 0.0);  // depth
-  out.push_back(1);                           // share of the one view
-  puppet.net = straight(out, std::vector<double>(out.size(), 0));
-  puppet.views.push_back({std::move(picture), points, {}});
-  puppet.faces = std::move(faces);
-  return *make_puppet(std::move(puppet));
-}
+using testing::glass_puppet;
+using testing::posed;
+using testing::speckles;
+using testing::still_puppet;
+using testing::straight;
 
 Image draw(const Puppet& puppet, const PuppetPose& pose, int width, int height, Vec2 at = {}) {
   Image canvas = make_image(width, height, 0, 0, 0, 0);
   PuppetPainter painter;
   render_puppet(puppet, pose, painter, canvas, at);
   return canvas;
-}
-
-PuppetPose posed(const Puppet& puppet, double t) {
-  PuppetPose pose = make_pose(puppet);
-  pose_puppet(puppet, std::array{t}, pose);
-  return pose;
-}
-
-Image speckles(int side) {
-  Image image = make_image(side, side, 0, 0, 0);
-  Random random{5};
-  for (std::size_t i = 0; i < image.rgba.size(); ++i)
-    if (i % 4 != 3) image.rgba[i] = static_cast<std::uint8_t>(random.below(256));
-  return image;
 }
 
 TEST(Puppet, DrawsItsPictureExactlyWhereNothingMoves) {
@@ -74,28 +42,7 @@ TEST(Puppet, DrawsItsPictureExactlyWhereNothingMoves) {
 // Half-covered glass shows a pixel that two faces claim, and one that none does. Triangles and
 // quads side by side, corners moved at random.
 TEST(Puppet, HasNoCracksAndNoOverlapsAlongSharedEdges) {
-  constexpr int kCells = 6;
-  std::vector<Vec2> points;
-  std::vector<Face> faces;
-  Random random{11};
-  for (int y = 0; y <= kCells; ++y)
-    for (int x = 0; x <= kCells; ++x) {
-      const bool rim = x == 0 || y == 0 || x == kCells || y == kCells;
-      const auto jitter = [&] { return rim ? 0.0f : static_cast<float>(random.unit() * 8 - 4); };
-      points.push_back(
-          {static_cast<float>(x * 16) + jitter(), static_cast<float>(y * 16) + jitter()});
-    }
-  for (std::uint32_t y = 0; y < kCells; ++y)
-    for (std::uint32_t x = 0; x < kCells; ++x) {
-      const std::uint32_t a = y * (kCells + 1) + x, b = a + 1, c = b + kCells + 1, d = c - 1;
-      if ((x + y) % 2 == 0) {
-        faces.push_back({{a, b, c, d}, 4});
-      } else {
-        faces.push_back({{a, b, c}, 3}), faces.push_back({{a, c, d}, 3});
-      }
-    }
-  const Image glass = make_image(96, 96, 64, 64, 64, 128);
-  const Puppet puppet = still_puppet(glass, points, faces);
+  const Puppet puppet = glass_puppet();
   PuppetPose pose = posed(puppet, 0);
   for (Vec2& p : pose.points) p = {3 + p.x * 0.9f + p.y * 0.05f, 2 + p.y * 0.93f};
   const Image drawn = draw(puppet, pose, 110, 110);

@@ -39,6 +39,9 @@
 
 namespace vsprite {
 
+struct Puppet;
+struct PuppetPose;
+
 /// The address of an OpenGL function of the current context, by its whole name; null if there is
 /// none: Window::gl_function, SDL_GL_GetProcAddress, eglGetProcAddress, ...
 using GlLoader = void* (*)(const char* name);
@@ -102,6 +105,18 @@ class Renderer {
   void end_layer();
   /// Stretches the layer over `area` (frame pixels; width 0: the whole frame).
   void draw_layer(Layer layer, const EffectPass& pass = {});
+
+  /// Sends a puppet's views and mesh to the GPU (puppet.h), to be drawn any number of times.
+  /// Errors: Unavailable (its views are too large for the GPU; no room for them).
+  Result<PuppetSkin> make_skin(const Puppet& puppet);
+  void free_skin(PuppetSkin skin);
+  /// What render_puppet draws, on the GPU: the barycentre at `center`, game coordinates, `scale`
+  /// game pixels a puppet px. The same faces, edges, bilinear quads and mixed views, up to the
+  /// rounding of floats; of parts that pierce each other a soft edge hides as well as a solid one.
+  /// Puppets of one skin that follow each other are one batch; nothing allocates once it has grown.
+  /// Pre: `skin` was made of this puppet, `pose` of one with as many control points and views.
+  void draw_puppet(const Puppet& puppet, const PuppetPose& pose, PuppetSkin skin, Vec2 center,
+                   float scale = 1);
 
   /// Encodes and sends the frame to the current framebuffer of that size (0: that of the frame),
   /// fitted into its middle with black bars. Then swap the window.

@@ -117,6 +117,11 @@ struct Layer {
   int id = -1;
 };
 
+/// A puppet's pictures on the GPU; belongs to the Renderer that made it.
+struct PuppetSkin {
+  int id = -1;
+};
+
 /// A named value for an effect: float, vec2, vec3, vec4, an array of them, or a layer (sampler2D).
 /// `name` and array values are borrowed for the call. A name that the effect does not use is
 /// ignored.
