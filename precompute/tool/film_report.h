@@ -20,15 +20,15 @@ struct FilmReport {
   Advice advice;
   std::optional<Classifier> classifier;  ///< of the work folder, where there is one
   Json records = Json::object();         ///< figures of its stages, by name
-  std::string roc;                       ///< its roc.svg
-  std::string contact;                   ///< its contact.png, the bytes
+  std::string roc{};                     ///< its roc.svg
+  std::string contact{};                 ///< its contact.png, the bytes
   struct Dropped {
     std::string reason;
     int frame = 0;
     double share = 0;  ///< of the film's frames
     std::string png;   ///< a frame that was left out for it
   };
-  std::vector<Dropped> dropped;
+  std::vector<Dropped> dropped{};
 };
 
 Json report_json(const Sprite& sprite, const FilmReport& report);

@@ -60,10 +60,14 @@ TEST(Advice, CountsSecondsOfEveryHeading) {
 
 TEST(Advice, OnePageHoldsItAllAndFetchesNothing) {
   const Sprite sprite = testing::tiny_sprite();
-  const FilmReport report{"responsive", make_advice(sprite, 1, 1), Classifier{}, {{"train", {}}}};
+  FilmReport report{"responsive", make_advice(sprite, 1, 1), Classifier{}, {{"train", {}}}};
+  report.records["train"] = {{"confusion", {{"true_accept", 7}}}, {"roc", Json::array()}};
+  report.roc = "<svg id='curve'></svg>";
+  report.dropped.push_back({"border", 12, 0.057, "PNG"});
   const auto page = report_html(sprite, report);
   ASSERT_TRUE(page) << page.error().message;
-  for (const char* part : {"What to film next", "Frames to turn", "<svg", "Classifier", "Stages"})
+  for (const char* part : {"What to film next", "Frames to turn", "<svg", "Classifier", "Stages",
+                           "id='curve'", "confusion: true accept", "border: 5.7 %"})
     EXPECT_NE(page->find(part), std::string::npos) << part;
   for (const char* part : {"http", "src='/", "<script"})
     EXPECT_EQ(page->find(part), std::string::npos) << part;
