@@ -5,7 +5,8 @@ include(${PROJECT_SOURCE_DIR}/shaders/embed.cmake)
 # The renderer: OpenGL by a loader, no library of any window system.
 find_path(GL_HEADERS GL/glcorearb.h REQUIRED)
 add_library(vsprite_draw
-  src/atlas.cpp src/draw.cpp src/draw_effect.cpp src/draw_puppet.cpp src/draw_text.cpp src/font.cpp src/gl.cpp)
+  src/atlas.cpp src/draw.cpp src/draw_actor.cpp src/draw_effect.cpp src/draw_puppet.cpp
+  src/draw_text.cpp src/font.cpp src/gl.cpp)
 add_library(vsprite::draw ALIAS vsprite_draw)
 set_target_properties(vsprite_draw PROPERTIES EXPORT_NAME draw)
 target_include_directories(vsprite_draw PRIVATE src)

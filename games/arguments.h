@@ -12,6 +12,7 @@
 
 #include "vsprite/exit_code.h"
 #include "vsprite/result.h"
+#include "vsprite/show.h"
 
 namespace vsprite::games {
 
@@ -23,6 +24,7 @@ struct Arguments {
   std::string keys;          ///< script or its file
   std::string record;        ///< .mp4 or .png
   std::uint64_t seed = 0;
+  int fade = kFadeAuto;  ///< ticks over a jump
   bool help = false;
 };
 
@@ -33,6 +35,8 @@ inline constexpr const char* kUsage =
     "  --keys SCRIPT    \"0.0 right; 2.5 right+up; 4.0 none\", or a file with one entry a line\n"
     "  --record FILE    .mp4: a film of the run; .png: its last frame\n"
     "  --seed N         another course of chance (0)\n"
+    "  --fade LENGTH    of the cross-fade over a jump: auto (by its cost), off, or 2 to 6 ticks "
+    "(auto)\n"
     "  --full-screen    as F11 does later\n\n"
     "arrow keys, W A S D or a game pad steer; F11 full screen, Esc quits\n";
 
@@ -64,6 +68,13 @@ inline Result<Arguments> parse_arguments(int argc, char** argv, const std::strin
                                                 (word == "--keys" ? "script" : "file name") +
                                                 " is due"};
       }
+    } else if (word == "--fade") {
+      const std::optional<int> length = parse_fade(next());
+      if (!length) {
+        return Error{ErrorCode::BadSetting, "--fade " + std::string(i < argc ? argv[i] : "") +
+                                                ": auto, off or a number from 2 to 6 is due"};
+      }
+      out.fade = *length;
     } else if (word == "--frames" || word == "--seed") {
       Result<std::uint64_t> value = parse_count(word, next());
       if (!value) return std::move(value).error();

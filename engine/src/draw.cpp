@@ -398,16 +398,4 @@ void Renderer::draw_polygon(std::span<const Vec2> corners, Color color) {
   draw_triangles(triangles);
 }
 
-void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
-                float fraction, const SpriteDraw& look) {
-  SpriteDraw s = look;
-  const Vec2 at = draw_position(sprite, actor, fraction);
-  s.position = {at.x + look.position.x, at.y + look.position.y};
-  s.anchor = sprite.samples()[actor.sample].anchor;
-  s.key = {reinterpret_cast<std::uintptr_t>(&sprite.data()), actor.sample};
-  if (!renderer.is_cached(s.key)) s.image = frames.frame(actor.sample);
-  renderer.draw_sprite(s);
-  frames.look_ahead(actor);
-}
-
 }  // namespace vsprite

@@ -34,6 +34,7 @@
 #include "vsprite/image.h"
 #include "vsprite/paint.h"
 #include "vsprite/result.h"
+#include "vsprite/show.h"
 #include "vsprite/sprite.h"
 #include "vsprite/stream.h"
 
@@ -155,5 +156,8 @@ Vec2 measure_text(std::string_view text, const TextStyle& style = {}) noexcept;
 /// angle, mirror, tint and fog, and move it: its position is added.
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 float fraction = 0, const SpriteDraw& look = {});
+/// The same, its jumps faded (show.h): call follow(sprite, actor, fade) after every step.
+void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
+                const ActorFade& fade, float fraction = 0, const SpriteDraw& look = {});
 
 }  // namespace vsprite

@@ -17,6 +17,7 @@
 #include "vsprite/policy.h"
 #include "vsprite/replay.h"
 #include "vsprite/result.h"
+#include "vsprite/show.h"
 #include "vsprite/sprite.h"
 #include "vsprite/stream.h"
 
