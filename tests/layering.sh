@@ -14,7 +14,7 @@ forbid() {
 src() { find "$@" -name '*.h' -o -name '*.cpp' | sort; }
 forbid 'libav|libsw|film/|similarity/|control/|synthesis/|tool/|window/|Eigen|nlohmann|CLI|spdlog|toml|tbb' $(src engine)
 forbid 'SDL|epoxy|GL|png|zstd|xxh|hwy' $(find engine/include -name '*.h' ! -name sdl.h)
-forbid 'SDL|vsprite/sdl' $(src engine/src | grep -vx engine/src/sdl.cpp)
+forbid 'SDL|vsprite/sdl' $(src engine/src | grep -vxE 'engine/src/(sdl|sdl_pictures).cpp')
 forbid 'GL' $(src engine/src | grep -vx engine/src/gl.cpp)
 forbid 'epoxy' $(src engine precompute games)
 forbid 'png\.h' $(find engine/src precompute games -name '*.cpp' ! -path engine/src/png.cpp -o -name '*.h' -path '*precompute*')

@@ -63,11 +63,12 @@ class QualityKeeper {
 class Game {
  public:
   Game(const Sprite& sprite, Session& session, Scene scene, const Options& options,
-       std::uint64_t seed)
+       std::uint64_t seed, int fade)
       : sprite_(sprite),
         session_(session),
         scene_(std::move(scene)),
         frames_(sprite),
+        fade_(fade),
         keeper_(session.window().headless() && !options.quality ? Quality::High : options.quality),
         world_(make_world(sprite, seed, options.others)) {
     hud_.muted = options.mute;
@@ -138,7 +139,7 @@ class Game {
     if (after.tick != before.tick)  // a pause shows the last one
       hud_.transition_cost = vsprite::shown_cost(sprite_, before.sample, after);
     const auto now = static_cast<float>(session_.seconds());
-    scene_.notice(world_, now);
+    scene_.notice(sprite_, world_, now, fade_);
     sound_.notice(world_);
     for (const Event& event : world_.events) {
       if (event.kind == EventKind::Start && first_start_ < 0) first_start_ = now;
@@ -173,6 +174,7 @@ class Game {
   Session& session_;
   Scene scene_;
   vsprite::FrameCache frames_;
+  int fade_;
   QualityKeeper keeper_;
   World world_;
   HudState hud_;
@@ -203,7 +205,7 @@ Result<void> play(const vsprite::games::Arguments& arguments, const Options& opt
   if (!session) return session.error();
   Result<Scene> scene = Scene::make(session->renderer());
   if (!scene) return scene.error();
-  Game game(*sprite, *session, std::move(*scene), options, arguments.seed);
+  Game game(*sprite, *session, std::move(*scene), options, arguments.seed, arguments.fade);
   while (session->next_frame()) game.frame();
   if (arguments.headless || arguments.frames > 0) {
     constexpr std::array<const char*, 3> kPhases{"ready", "playing", "over"};

@@ -117,7 +117,10 @@ Result<Scene> Scene::make(Renderer& renderer) {
   return scene;
 }
 
-void Scene::notice(const World& world, float seconds) {
+void Scene::notice(const vsprite::Sprite& sprite, const World& world, float seconds, int fade) {
+  fades_.resize(world.fish.size());
+  for (std::size_t i = 0; i < fades_.size(); ++i)
+    vsprite::follow(sprite, world.fish[i].actor, fades_[i], fade);
   for (const Event& event : world.events) sparks_.push_back({event, seconds});
   std::erase_if(sparks_, [&](const Spark& s) { return seconds - s.born > kSparkSeconds; });
 }
@@ -186,7 +189,7 @@ void Scene::draw_far(Renderer& renderer, vsprite::FrameCache& frames, const Mome
   for (std::size_t k = moment.world.fish.size(); k-- > 1;) {
     const Fish& fish = moment.world.fish[k];
     draw_plants(renderer, moment, far, fish.depth);
-    draw_fish(renderer, frames, moment, fish);
+    draw_fish(renderer, frames, moment, k);
     far = fish.depth;
   }
   draw_plants(renderer, moment, far, 0);
@@ -203,7 +206,8 @@ void Scene::draw_plants(Renderer& renderer, const Moment& moment, float far, flo
 }
 
 void Scene::draw_fish(Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,
-                      const Fish& fish) const {
+                      std::size_t which) const {
+  const Fish& fish = moment.world.fish[which];
   const Vec2 at = place_of(fish);
   // Its shade on the gravel: wider and fainter the higher it swims.
   const float ground = 690 - 95 * fish.depth;
@@ -229,7 +233,8 @@ void Scene::draw_fish(Renderer& renderer, vsprite::FrameCache& frames, const Mom
   look.position = {glide.x * moment.fraction, glide.y * moment.fraction};
   look.fog_amount = std::min(0.85f, 0.03f + 0.66f * fish.depth);
   renderer.set_camera(camera_of(view_, fish.scale));
-  vsprite::draw_actor(renderer, moment.sprite, frames, fish.actor, moment.fraction, look);
+  const vsprite::ActorFade fade = which < fades_.size() ? fades_[which] : vsprite::ActorFade{};
+  vsprite::draw_actor(renderer, moment.sprite, frames, fish.actor, fade, moment.fraction, look);
 }
 
 void Scene::draw_food(Renderer& renderer, const Moment& moment) const {
@@ -383,7 +388,7 @@ void Scene::draw(Renderer& renderer, vsprite::FrameCache& frames, const Moment& 
   draw_far(renderer, frames, moment);
   draw_bubbles(renderer, moment.seconds, false);
   draw_food(renderer, moment);
-  draw_fish(renderer, frames, moment, moment.world.fish[0]);
+  draw_fish(renderer, frames, moment, 0);
   draw_sparks(renderer, moment.seconds);
   draw_bubbles(renderer, moment.seconds, true);
   draw_motes(renderer, moment.seconds);

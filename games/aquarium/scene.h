@@ -13,6 +13,7 @@
 #include "light.h"
 #include "plants.h"
 #include "vsprite/draw.h"
+#include "vsprite/show.h"
 #include "vsprite/stream.h"
 #include "world.h"
 
@@ -37,8 +38,9 @@ class Scene {
   /// Compiles the effects. Errors: those of Renderer::make_effect and make_layer.
   static vsprite::Result<Scene> make(vsprite::Renderer& renderer);
 
-  /// Call after every tick: turns the world's events into sparks and rings.
-  void notice(const World& world, float seconds);
+  /// Call after every tick: turns the world's events into sparks and rings, jumps into fades of
+  /// `fade` ticks (show.h).
+  void notice(const vsprite::Sprite& sprite, const World& world, float seconds, int fade);
   /// Draws the tank into the frame that has begun. The backdrop is drawn anew once a changed size
   /// has held for a moment (`settled`), until then the old one is stretched.
   void draw(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,
@@ -56,7 +58,7 @@ class Scene {
   void draw_far(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment);
   void draw_plants(vsprite::Renderer& renderer, const Moment& moment, float far, float near);
   void draw_fish(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,
-                 const Fish& fish) const;
+                 std::size_t which) const;
   void draw_food(vsprite::Renderer& renderer, const Moment& moment) const;
   void draw_sparks(vsprite::Renderer& renderer, float seconds);
   void draw_bubbles(vsprite::Renderer& renderer, float seconds, bool near) const;
@@ -72,6 +74,7 @@ class Scene {
   std::vector<Wake> wakes_;
   std::vector<vsprite::Vertex> vertices_;
   std::vector<Spark> sparks_;
+  std::vector<vsprite::ActorFade> fades_;  ///< of World::fish
 };
 
 }  // namespace aquarium

@@ -37,14 +37,16 @@ Result<void> run_hello(const games::Arguments& arguments) {
   Renderer& screen = session->renderer();
   FrameCache frames(*sprite);
   Actor actor = make_actor(*sprite, {640, 360}, arguments.seed);
+  ActorFade fade;
   while (session->next_frame()) {
     while (session->next_tick()) {
       set_direction(*sprite, actor, session->direction());
       step(*sprite, actor);
+      follow(*sprite, actor, fade, arguments.fade);
       wrap(actor, screen, sprite->data().body_length / 2);
     }
     screen.clear(srgb(0x9cc4d8));
-    draw_actor(screen, *sprite, frames, actor, session->fraction());
+    draw_actor(screen, *sprite, frames, actor, fade, session->fraction());
     session->show();
     if (session->input().was_pressed(kKeyEscape)) session->close();
   }

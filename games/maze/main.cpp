@@ -134,6 +134,7 @@ Result<void> run_maze(const games::Arguments& arguments) {
   for (PackClip& clip : *clips)
     if (clip.name == "maze") attract.clip = std::move(clip);
   Actor actor;
+  ActorFade fade;
   begin(world, attract, *sprite, actor, arguments.seed);
   const std::size_t all = world.food.size();
   while (session->next_frame()) {
@@ -149,12 +150,13 @@ Result<void> run_maze(const games::Arguments& arguments) {
         attract_tick(world, attract, *sprite, actor);
       if (world.is_played && world.idle > kIdle)
         begin(world, attract, *sprite, actor, arguments.seed);
+      follow(*sprite, actor, fade, arguments.fade);
     }
     screen.set_camera(camera_for(screen));
     draw_maze(screen, world);
     const float unit = unit_of(*sprite);
     const Vec2 at = draw_position(*sprite, actor, world.is_played ? session->fraction() : 0);
-    draw_actor(screen, *sprite, frames, actor, world.is_played ? session->fraction() : 0,
+    draw_actor(screen, *sprite, frames, actor, fade, world.is_played ? session->fraction() : 0,
                {.position = {at.x * (unit - 1), at.y * (unit - 1)}, .scale = unit});
     screen.set_camera({});
     draw_words(screen, world, all);

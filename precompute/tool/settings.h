@@ -82,6 +82,7 @@ struct Settings {
   std::string record;
   std::string replay;
   bool headless = false;
+  std::string fade = "auto";
 
   // Labelling.
   int questions = 500;

@@ -78,7 +78,11 @@ class Play {
  public:
   Play(const Sprite& sprite, Session& session, const PlayOptions& options, int mode,
        KeyScript script)
-      : sprite_(sprite), session_(session), frames_(sprite), script_(std::move(script)) {
+      : sprite_(sprite),
+        session_(session),
+        frames_(sprite),
+        script_(std::move(script)),
+        fade_(options.fade) {
     state_.actor = make_actor(sprite, {}, options.seed, mode);
     state_.zoom = fitting_zoom(sprite, options.height);
     state_.overlay = options.overlay;
@@ -115,6 +119,7 @@ class Play {
   FrameCache frames_;
   KeyScript script_;  // its actions; the session steers by it
   PlayState state_;
+  int fade_;
   bool still_ = false;
   double last_seconds_ = 0;
 };
@@ -158,6 +163,7 @@ void Play::tick() {
   play_script(sprite_, script_, session_.tick(), state_.actor);
   const std::uint32_t before = state_.actor.sample;
   step(sprite_, state_.actor);
+  vsprite::follow(sprite_, state_.actor, state_.fade, fade_);
   float& cost = state_.costs[state_.cost_head];
   state_.cost_head = (state_.cost_head + 1) % window::kHistory;
   cost = -1;

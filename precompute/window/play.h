@@ -9,6 +9,7 @@
 #include <string>
 
 #include "vsprite/result.h"
+#include "vsprite/show.h"
 #include "vsprite/sprite.h"
 
 namespace vsprite {
@@ -21,6 +22,7 @@ struct PlayOptions {
   std::string record{};  ///< film (.mp4) or picture of the last frame (.png); empty: nothing
   std::string screenshot{};  ///< picture of the last frame (.png), beside a film; empty: nothing
   std::uint64_t seed = 0;    ///< drives variety only
+  int fade = kFadeAuto;      ///< ticks over which a jump is cross-faded (vsprite/show.h)
   std::string title{};       ///< of the window; empty: the sprite's name
   bool overlay = false;      ///< starts with the F1 overlay shown
   int width = 1280;          ///< px

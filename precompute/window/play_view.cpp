@@ -239,7 +239,7 @@ void PlayView::draw(Session& session, const Sprite& sprite, FrameCache& frames,
   r.set_camera({.origin = s.camera, .scale = s.zoom, .offset = {0.5f * width, 0.5f * height}});
   draw_target(r, s);
   const float fraction = session.is_paused() ? 0 : session.fraction();
-  draw_actor(r, sprite, frames, s.actor, fraction);
+  draw_actor(r, sprite, frames, s.actor, s.fade, fraction);
   if (s.overlay) draw_arrows(r, sprite, s, draw_position(sprite, s.actor, fraction));
   r.set_camera({});
 

@@ -23,6 +23,7 @@ inline constexpr std::size_t kHistory = 150;
 /// One frame's worth of facts.
 struct PlayState {
   Actor actor{};
+  ActorFade fade{};
   Vec2 camera{};   ///< world px in the middle of the frame
   float zoom = 1;  ///< frame px per world px
   int ground = 0;  ///< kind of background, 0..kGroundCount-1

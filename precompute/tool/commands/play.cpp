@@ -8,6 +8,7 @@
 #include "tool/cast_file.h"
 #include "tool/commands/verbs.h"
 #include "vsprite/pack.h"
+#include "vsprite/show.h"
 
 namespace vsprite {
 namespace {
@@ -65,6 +66,7 @@ Result<int> run_play(const Settings& settings, Console& console) {
   options.keys = settings.keys;
   options.record = settings.record;
   options.seed = settings.seed;
+  options.fade = parse_fade(settings.fade).value_or(kFadeAuto);
   options.title = fs::path(*pack).stem().string();
   // The window closes itself on an interrupt; nothing is left to keep.
   std::signal(SIGINT, SIG_DFL);
