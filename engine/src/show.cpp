@@ -36,7 +36,9 @@ std::optional<int> parse_fade(std::string_view text) noexcept {
 }
 
 int fade_length(float cost) noexcept {
-  const float part = cost < 1 ? std::max(cost, 0.0f) : 1.0f;  // not a number: as a cut
+  constexpr float kDearest = 3;
+  if (cost <= 1) return kFadeOff;
+  const float part = cost < kDearest ? (cost - 1) / (kDearest - 1) : 1.0f;  // NaN: as a cut
   return kLeastFade + static_cast<int>(std::lround(part * (kMostFade - kLeastFade)));
 }
 
@@ -45,13 +47,13 @@ void follow(const Sprite& sprite, const Actor& actor, ActorFade& fade, int ticks
   if (fade.before != kNoSample && ++fade.passed >= fade.length) fade.before = kNoSample;
   if (fade.before != kNoSample) play_on(sprite, fade);
   if (ticks == kFadeOff || last == kNoSample || !is_jump(sprite, last, actor.sample)) return;
-  if (fade_share(fade) > 0.5f) return;
+  const int length = ticks > 0 ? std::clamp(ticks, kLeastFade, kMostFade)
+                               : fade_length(sprite.transition_cost(last, actor.sample));
+  if (length == 0 || fade_share(fade) > 0.5f) return;
   fade.before = last;
   fade.held = sprite.samples()[last].duration;  // its time is up: the next one is due
   play_on(sprite, fade);
-  fade.length = static_cast<std::uint8_t>(
-      ticks > 0 ? std::clamp(ticks, kLeastFade, kMostFade)
-                : fade_length(sprite.transition_cost(last, actor.sample)));
+  fade.length = static_cast<std::uint8_t>(length);
   fade.passed = 0;
 }
 

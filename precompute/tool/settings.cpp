@@ -286,9 +286,10 @@ void add_use_options(Row& t) {
   t.flag("bench", &Settings::bench,
          "all modes over a grid of settings, ten random runs each; -o FILE.svg draws the curves",
          " steer ");
-  t.text("fade", "LENGTH", &Settings::fade,
-         "ticks over which a jump is cross-faded; auto: by its cost", " play ",
-         "auto|off|2|3|4|5|6");
+  t.text(
+      "fade", "LENGTH", &Settings::fade,
+      "ticks over which a jump is cross-faded; auto: only those dearer than the threshold, by cost",
+      " play ", "auto|off|2|3|4|5|6");
   t.flag("headless", &Settings::headless, "no window: play the keys and end", " play label ");
   t.text(
       "record", "FILE", &Settings::record,

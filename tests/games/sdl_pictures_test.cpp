@@ -25,7 +25,8 @@ class SdlStage {
     SDL_SetHint(SDL_HINT_VIDEODRIVER, opengl ? "offscreen" : "dummy");
     SDL_SetHint(SDL_HINT_RENDER_DRIVER, opengl ? "opengl" : "software");
     if (SDL_InitSubSystem(SDL_INIT_VIDEO) != 0) return;
-    window_ = SDL_CreateWindow("t", 0, 0, kWidth, kHeight, opengl ? SDL_WINDOW_OPENGL : 0u);
+    window_ = SDL_CreateWindow("t", 0, 0, kWidth, kHeight,
+                               opengl ? Uint32{SDL_WINDOW_OPENGL} : Uint32{0});
     if (window_ != nullptr) renderer_ = SDL_CreateRenderer(window_, -1, 0);
   }
   ~SdlStage() {
@@ -139,7 +140,7 @@ TEST_P(SdlPicturesTest, SaysWhyThereIsNoTexture) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Renderers, SdlPicturesTest, ::testing::Values(false, true),
-                         [](const auto& info) { return info.param ? "OpenGL" : "Software"; });
+                         [](const auto& p) { return p.param ? "OpenGL" : "Software"; });
 
 }  // namespace
 }  // namespace vsprite

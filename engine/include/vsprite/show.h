@@ -48,8 +48,9 @@ struct ActorFade {
   std::uint8_t passed = 0;           ///< whole ticks since the jump, < n while it fades
 };
 
-/// The length of the fade over a jump of cost T under kFadeAuto: 2 ticks for T near 0, 6 from the
-/// classifier's threshold (1) on, between them in proportion. Infinity (a cut) counts as the most.
+/// The length of the fade over a jump of cost T under kFadeAuto: 0 up to the classifier's threshold
+/// (T <= 1: it was judged to look right as it is, and a mix of two poses shows more than the jump),
+/// then 2 ticks, growing to 6 for a join of T = 3 or more and for a cut (infinity).
 int fade_length(float cost) noexcept;
 
 /// Call it after every step (and after whatever else shows another sample). `ticks`: kFadeOff,
