@@ -21,8 +21,9 @@ namespace vsprite::detail {
 
 struct KeyHash {
   std::size_t operator()(const TextureKey& key) const noexcept {
-    return std::size_t((key.sprite ^ (std::uint64_t{key.sample} << 32 | key.sample)) *
-                       0x9E3779B97F4A7C15u);
+    return std::size_t(
+        (key.sprite ^ (std::uint64_t{key.sample} << 32 | (key.sample + key.variant))) *
+        0x9E3779B97F4A7C15u);
   }
 };
 

@@ -324,6 +324,58 @@ void draw_picture(Image& canvas, ImageView picture, Vec2 top_left,
   }
 }
 
+namespace {
+
+// One binomial pass [1 2 1] / 4 along lines of `count` values, `step` apart.
+void blur_lines(std::vector<std::uint16_t>& v, int lines, std::size_t line, int count,
+                std::size_t step) {
+  for (int k = 0; k < lines; ++k) {
+    std::uint16_t* p = v.data() + static_cast<std::size_t>(k) * line;
+    unsigned before = 0;
+    for (int i = 0; i < count; ++i, p += step) {
+      const unsigned here = *p, after = i + 1 < count ? p[step] : 0u;
+      *p = static_cast<std::uint16_t>((before + 2 * here + after + 2) / 4);
+      before = here;
+    }
+  }
+}
+
+}  // namespace
+
+SoftShadow make_shadow(ImageView picture, float blur) {
+  constexpr float kMostBlur = 64;
+  constexpr int kMostReduction = 8;
+  const float radius = blur > 0 ? std::min(blur, kMostBlur) : 0.0f;
+  // The radius is two standard deviations; a pass adds half a (reduced) pixel of variance.
+  const int reduction = std::clamp(static_cast<int>(radius / 2), 1, kMostReduction);
+  const float deviation = radius / 2 / static_cast<float>(reduction);
+  const int passes = static_cast<int>(std::lround(2 * deviation * deviation));
+  const auto side = [&](int n) { return (n + reduction - 1) / reduction + 2 * passes; };
+  SoftShadow out;
+  out.scale = static_cast<float>(reduction);
+  out.corner = {-out.scale * static_cast<float>(passes), -out.scale * static_cast<float>(passes)};
+  if (picture.width <= 0 || picture.height <= 0) return out;
+  const int width = side(picture.width), height = side(picture.height);
+  const auto stride = static_cast<std::size_t>(width);
+  std::vector<std::uint32_t> sums(stride * static_cast<std::size_t>(height), 0);
+  for (int y = 0; y < picture.height; ++y) {
+    std::uint32_t* row = sums.data() + static_cast<std::size_t>(y / reduction + passes) * stride;
+    for (int x = 0; x < picture.width; ++x) row[x / reduction + passes] += picture.pixel(x, y)[3];
+  }
+  std::vector<std::uint16_t> soft(sums.size());
+  const auto cell = static_cast<std::uint32_t>(reduction * reduction);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    soft[i] = static_cast<std::uint16_t>(sums[i] * 256 / cell);
+  for (int pass = 0; pass < passes; ++pass) {
+    blur_lines(soft, height, stride, width, 1);
+    blur_lines(soft, width, 1, height, stride);
+  }
+  out.image = Image{width, height, std::vector<std::uint8_t>(4 * soft.size())};
+  for (std::size_t i = 0; i < soft.size(); ++i)
+    std::memset(&out.image.rgba[4 * i], (soft[i] + 128) >> 8, 4);
+  return out;
+}
+
 void draw_sample(Image& canvas, ImageView picture, const Sample& sample, Vec2 position,
                  const DrawOptions& options) noexcept {
   const Vec2 top_left{position.x - sample.anchor.x * options.scale,

@@ -12,12 +12,14 @@
 
 #include "renderer.h"
 #include "shaders/sprite.h"
+#include "vsprite/compose.h"
 
 namespace vsprite {
 
 namespace gl = detail::gl;
 namespace glsl = shaders::sprite;
 using detail::Kind;
+using detail::Picture;
 using detail::Program;
 using detail::Surface;
 
@@ -331,18 +333,66 @@ void Renderer::draw_sprite(const SpriteDraw& s) {
   p.slot = *slot;
   p.share = std::min(s.fade.share, 1.0f);
   p.shift = {s.anchor.x - s.fade.anchor.x, s.anchor.y - s.fade.anchor.y};
-  const float scale = s.scale * m.camera.scale;
-  const float c = std::cos(s.angle) * scale, n = std::sin(s.angle) * scale;
-  const float side = s.mirror ? -1.0f : 1.0f;
-  p.x_axis = {side * c, side * n};
-  p.y_axis = {-n, c};
-  const Vec2 at = m.to_frame(s.position);
-  p.corner = {at.x - p.x_axis.x * s.anchor.x - p.y_axis.x * s.anchor.y,
-              at.y - p.x_axis.y * s.anchor.x - p.y_axis.y * s.anchor.y};
+  m.set_axes(s, p);
+  m.put_at(s.position, s.anchor, p);
   p.tint = s.tint;
   p.fog = s.fog;
   p.fog_amount = s.fog_amount;
   m.push_picture(p);
+}
+
+void Renderer::Impl::set_axes(const SpriteDraw& s, Picture& p) const {
+  const float scale = s.scale * camera.scale;
+  const float c = std::cos(s.angle) * scale, n = std::sin(s.angle) * scale;
+  const float side = s.mirror ? -1.0f : 1.0f;
+  p.x_axis = {side * c, side * n};
+  p.y_axis = {-n, c};
+}
+
+void Renderer::Impl::put_at(Vec2 position, Vec2 texel, Picture& p) const {
+  const Vec2 at = to_frame(position);
+  p.corner = {at.x - p.x_axis.x * texel.x - p.y_axis.x * texel.y,
+              at.y - p.x_axis.y * texel.x - p.y_axis.y * texel.y};
+}
+
+TextureKey shadow_key(const TextureKey& picture, const Shadow& shadow) noexcept {
+  const float blur = shadow.blur > 0 ? std::min(shadow.blur, 64.0f) : 0.0f;
+  return {picture.sprite, picture.sample, 1 + static_cast<std::uint32_t>(std::lround(4 * blur))};
+}
+
+void Renderer::draw_shadow(const SpriteDraw& s, const Shadow& shadow) {
+  if (impl_->target == nullptr) return;
+  const float share = std::clamp(s.fade.share, 0.0f, 1.0f);
+  impl_->push_shadow(s, {s.image, s.key, s.anchor, 1 - share}, shadow);
+  impl_->push_shadow(s, {s.fade.image, s.fade.key, s.fade.anchor, share}, shadow);
+}
+
+void Renderer::Impl::push_shadow(const SpriteDraw& s, const Fade& of, const Shadow& shadow) {
+  const float opacity = of.share * shadow.opacity;
+  if (!(opacity > 0)) return;
+  const TextureKey key = shadow_key(of.key, shadow);
+  const float blur = static_cast<float>(key.variant - 1) / 4;
+  std::optional<detail::AtlasSlot> slot;
+  if (key.sprite != 0) slot = atlas.find(key);
+  if (!slot) slot = find_or_store(key, make_shadow(of.image, blur).image);
+  if (!slot) return;
+  Picture p;
+  p.slot = *slot;
+  set_axes(s, p);
+  // On the ground: heights are squashed and lean over.
+  const SoftShadow place = make_shadow({}, blur);  // where any picture's shadow lies
+  const auto lay = [&](Vec2 v) {
+    return Vec2{(v.x - shadow.slant * v.y) * place.scale, shadow.squash * v.y * place.scale};
+  };
+  p.x_axis = lay(p.x_axis);
+  p.y_axis = lay(p.y_axis);
+  put_at(
+      {s.position.x + shadow.offset.x, s.position.y + shadow.offset.y},
+      {(of.anchor.x - place.corner.x) / place.scale, (of.anchor.y - place.corner.y) / place.scale},
+      p);
+  p.tint = {shadow.color.r, shadow.color.g, shadow.color.b, opacity};
+  p.footprint = 0;  // it is soft already: one sample will do
+  push_picture(p);
 }
 
 void Renderer::draw_shape(const Shape& s) {

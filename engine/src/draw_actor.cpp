@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Actors as pictures of a Renderer: which picture, where, and what still fades out of it.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "vsprite/draw.h"
 
@@ -13,30 +17,64 @@ TextureKey key_of(const Sprite& sprite, std::uint32_t sample) {
   return {reinterpret_cast<std::uintptr_t>(&sprite.data()), sample};
 }
 
+// The picture that is shown and the one that fades out of it; pixels only where `is_there` says no.
+template <class IsThere>
+SpriteDraw sprite_of(const ActorDraw& a, float fraction, const IsThere& is_there) {
+  SpriteDraw s = a.look;
+  const Sprite& sprite = *a.sprite;
+  const Vec2 at = draw_position(sprite, *a.actor, fraction);
+  s.position = {at.x + a.look.position.x, at.y + a.look.position.y};
+  s.anchor = sprite.samples()[a.actor->sample].anchor;
+  s.key = key_of(sprite, a.actor->sample);
+  const float share = a.fade != nullptr ? fade_share(*a.fade, fraction) : 0.0f;
+  if (share > 0) {
+    s.fade.share = share;
+    s.fade.anchor = sprite.samples()[a.fade->before].anchor;
+    s.fade.key = key_of(sprite, a.fade->before);
+    if (!is_there(s.fade.key)) s.fade.image = a.frames->frame(a.fade->before);
+  }
+  if (!is_there(s.key)) s.image = a.frames->frame(a.actor->sample);
+  return s;
+}
+
+void draw_one(Renderer& renderer, const ActorDraw& a, float fraction) {
+  renderer.draw_sprite(
+      sprite_of(a, fraction, [&](const TextureKey& key) { return renderer.is_cached(key); }));
+  a.frames->look_ahead(*a.actor);
+}
+
 }  // namespace
 
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 float fraction, const SpriteDraw& look) {
-  draw_actor(renderer, sprite, frames, actor, ActorFade{}, fraction, look);
+  draw_one(renderer, {&sprite, &frames, &actor, nullptr, look}, fraction);
 }
 
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 const ActorFade& fade, float fraction, const SpriteDraw& look) {
-  SpriteDraw s = look;
-  const Vec2 at = draw_position(sprite, actor, fraction);
-  s.position = {at.x + look.position.x, at.y + look.position.y};
-  s.anchor = sprite.samples()[actor.sample].anchor;
-  s.key = key_of(sprite, actor.sample);
-  const float share = fade_share(fade, fraction);
-  if (share > 0) {
-    s.fade.share = share;
-    s.fade.anchor = sprite.samples()[fade.before].anchor;
-    s.fade.key = key_of(sprite, fade.before);
-    if (!renderer.is_cached(s.fade.key)) s.fade.image = frames.frame(fade.before);
+  draw_one(renderer, {&sprite, &frames, &actor, &fade, look}, fraction);
+}
+
+void draw_actors(Renderer& renderer, std::span<const ActorDraw> actors, float fraction,
+                 const Shadow* shadow) {
+  if (shadow != nullptr) {
+    for (const ActorDraw& a : actors) {
+      const auto is_there = [&](const TextureKey& key) {
+        return renderer.is_cached(shadow_key(key, *shadow));
+      };
+      renderer.draw_shadow(sprite_of(a, fraction, is_there), *shadow);
+    }
   }
-  if (!renderer.is_cached(s.key)) s.image = frames.frame(actor.sample);
-  renderer.draw_sprite(s);
-  frames.look_ahead(actor);
+  std::vector<std::pair<float, const ActorDraw*>> order;
+  order.reserve(actors.size());
+  for (const ActorDraw& a : actors) {
+    const bool given = !std::isnan(a.depth);
+    order.emplace_back(
+        given ? a.depth : draw_position(*a.sprite, *a.actor, fraction).y + a.look.position.y, &a);
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& entry : order) draw_one(renderer, *entry.second, fraction);
 }
 
 }  // namespace vsprite

@@ -141,6 +141,10 @@ struct Renderer::Impl {
   void push(std::initializer_list<float> values) {
     batch.insert(batch.end(), values.begin(), values.end());
   }
+  void set_axes(const SpriteDraw& sprite, detail::Picture& picture) const;
+  /// So that `texel` of the picture comes to lie at `position`.
+  void put_at(Vec2 position, Vec2 texel, detail::Picture& picture) const;
+  void push_shadow(const SpriteDraw& sprite, const Fade& of, const Shadow& shadow);
   void push_picture(const detail::Picture& picture);
   /// The picture's place on a page; it is sent there if need be. Nothing if there is no picture.
   std::optional<detail::AtlasSlot> find_or_store(const TextureKey& key, ImageView image);

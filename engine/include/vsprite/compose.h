@@ -49,4 +49,16 @@ void draw_picture(Image& canvas, ImageView picture, Vec2 top_left,
 void draw_sample(Image& canvas, ImageView picture, const Sample& sample, Vec2 position,
                  const DrawOptions& options = {}) noexcept;
 
+/// A silhouette, blurred and reduced: pixel p of `image` lies at p scale + corner of the picture.
+struct SoftShadow {
+  Image image;      ///< white, premultiplied: every channel is the coverage
+  Vec2 corner{};    ///< of the image, px of the picture
+  float scale = 1;  ///< px of the picture per pixel of the image: 1..8
+};
+
+/// The shadow of a picture (premultiplied or not: alpha counts) on the plane behind it. `blur`: the
+/// radius over which its edge fades, px, 0..64. Draw it with a tint, enlarged by `scale`. Cost:
+/// about that of reading the picture. May throw std::bad_alloc.
+SoftShadow make_shadow(ImageView picture, float blur);
+
 }  // namespace vsprite

@@ -24,6 +24,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -75,6 +76,9 @@ class Renderer {
   const Camera& camera() const noexcept;
 
   void draw_sprite(const SpriteDraw& sprite);
+  /// The shadow of a sprite, to be drawn before what stands on it. `sprite.image` may be empty
+  /// where is_cached(shadow_key(sprite.key, shadow)); tint and fog do not count.
+  void draw_shadow(const SpriteDraw& sprite, const Shadow& shadow);
   bool is_cached(const TextureKey& key) const noexcept;
   /// Drops the cached pictures of one sprite, e.g. after its pack was loaded anew.
   void forget(std::uint64_t sprite);
@@ -159,5 +163,21 @@ void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, co
 /// The same, its jumps faded (show.h): call follow(sprite, actor, fade) after every step.
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 const ActorFade& fade, float fraction = 0, const SpriteDraw& look = {});
+
+/// One of many actors. The pointers are borrowed for the call; `fade` may be null.
+struct ActorDraw {
+  const Sprite* sprite = nullptr;
+  FrameCache* frames = nullptr;
+  const Actor* actor = nullptr;
+  const ActorFade* fade = nullptr;
+  SpriteDraw look{};  ///< as for draw_actor
+  /// Greater is nearer and drawn later; NaN: where it stands, y of its position.
+  float depth = std::numeric_limits<float>::quiet_NaN();
+};
+
+/// All shadows, then all actors from far to near; those of one depth in the order given. `shadow`
+/// may be null: none.
+void draw_actors(Renderer& renderer, std::span<const ActorDraw> actors, float fraction = 0,
+                 const Shadow* shadow = nullptr);
 
 }  // namespace vsprite

@@ -46,6 +46,7 @@ struct Camera {
 struct TextureKey {
   std::uint64_t sprite = 0;
   std::uint32_t sample = 0;
+  std::uint32_t variant = 0;  ///< 0: the picture itself; else its shadow (shadow_key)
   friend bool operator==(const TextureKey&, const TextureKey&) = default;
 };
 
@@ -72,6 +73,19 @@ struct SpriteDraw {
   float fog_amount = 0;  ///< ... 0 none, 1 a silhouette in that colour
   Fade fade{};           ///< the picture shown before
 };
+
+/// A soft shadow: the picture's silhouette on the ground, blurred. The anchor stays where it is, so
+/// that a subject that stands there touches its shadow.
+struct Shadow {
+  float opacity = 0.4f;  ///< 0: none .. 1
+  float squash = 0.3f;   ///< of heights: 1 seen from above, 0.3 from a low camera; < 0: towards it
+  float slant = 0;       ///< game pixels to the right per game pixel of height
+  float blur = 6;        ///< radius over which the edge fades, px of the picture, 0..64
+  Vec2 offset{};         ///< from the subject, game pixels: how high it hovers
+  Color color{0, 0, 0};
+};
+/// The name under which the shadow of a picture is cached.
+TextureKey shadow_key(const TextureKey& picture, const Shadow& shadow) noexcept;
 
 /// A rounded box with a soft edge: also rectangles, discs, rings and thick lines.
 struct Shape {
