@@ -197,6 +197,33 @@ TEST(Compose, PlacesBeyondReasonDrawNothing) {
   EXPECT_EQ(canvas.rgba, before.rgba);
 }
 
+TEST(Compose, AShadowKeepsTheAreaOfThePictureAndIsEvenAboutIt) {
+  const Image picture = make_image(40, 24, 10, 200, 30);
+  for (const float blur : {0.0f, 1.0f, 3.0f, 8.0f, 40.0f, 64.0f}) {
+    const SoftShadow shadow = make_shadow(picture, blur);
+    double area = 0, x_mean = 0;
+    const ImageView view(shadow.image);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        const std::uint8_t* p = view.pixel(x, y);
+        EXPECT_EQ(p[0], p[3]);
+        area += p[3] / 255.0;
+        x_mean += p[3] / 255.0 * (x + 0.5);
+      }
+    }
+    const double scale = double{shadow.scale};
+    EXPECT_NEAR(area * scale * scale, 40 * 24, 40 * 24 * 0.03) << blur;
+    EXPECT_NEAR(x_mean / area * scale + double{shadow.corner.x}, 20, 0.3) << blur;
+  }
+}
+
+TEST(Compose, AShadowOfNothingIsNothing) {
+  EXPECT_EQ(make_shadow({}, 6).image.width, 0);
+  const SoftShadow clear = make_shadow(make_image(9, 9, 0, 0, 0, 0), 6);
+  for (const std::uint8_t v : clear.image.rgba) EXPECT_EQ(v, 0);
+  EXPECT_GT(make_shadow(make_image(1, 1, 0, 0, 0), 1e9f).image.width, 0);
+}
+
 TEST(Compose, CheckerboardAlternates) {
   const Image board = make_checkerboard(32, 16, 8);
   EXPECT_NE(ImageView(board).pixel(7, 7)[0], ImageView(board).pixel(8, 7)[0]);

@@ -5,13 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "support/gl_stage.h"
+#include "support/temp_folder.h"
+#include "support/tiny_sprite.h"
 #include "vsprite/compose.h"
+#include "vsprite/pack.h"
 
 namespace vsprite {
 namespace {
@@ -129,6 +134,151 @@ TEST_F(Draw, ACrossFadeMixesBeforeItCovers) {
   EXPECT_EQ(color_at(seen, 6, 16), 0x00bcbcu);   // the old one alone
   EXPECT_EQ(color_at(seen, 2, 16), 0x00ff00u);
   EXPECT_EQ(renderer().stats().batches, 1u);
+}
+
+// The shadow's reference: each canvas pixel sampled from make_shadow through the ground's geometry.
+TEST_F(Draw, AShadowIsTheBlurredSilhouetteLaidOnTheGround) {
+  const Image picture = make_image(24, 32, 250, 20, 20);
+  const Shadow shadow{.opacity = 0.5f, .squash = 0.5f, .slant = 0.25f, .blur = 4};
+  renderer().begin_frame(96, 80);
+  renderer().clear(srgb(0xffffff));
+  renderer().draw_shadow({.image = picture, .position = {40, 60}, .anchor = {12, 32}}, shadow);
+  renderer().end_frame();
+  const Image seen = renderer().read_pixels();
+  const SoftShadow soft = make_shadow(picture, shadow.blur);
+  const auto coverage = [&](float x, float y) {  // bilinear, at a pixel's centre on the canvas
+    const float dy = (y - 60) / shadow.squash;
+    const float u = (x - 40 + shadow.slant * dy + 12 - soft.corner.x) / soft.scale - 0.5f;
+    const float v = (dy + 32 - soft.corner.y) / soft.scale - 0.5f;
+    const auto at = [&](float i, float j) {
+      const bool inside = i >= 0 && j >= 0 && i < static_cast<float>(soft.image.width) &&
+                          j < static_cast<float>(soft.image.height);
+      if (!inside) return 0.0f;
+      return static_cast<float>(
+                 ImageView(soft.image).pixel(static_cast<int>(i), static_cast<int>(j))[3]) /
+             255;
+    };
+    const float i = std::floor(u), j = std::floor(v);
+    return (1 - (v - j)) * ((1 - (u - i)) * at(i, j) + (u - i) * at(i + 1, j)) +
+           (v - j) * ((1 - (u - i)) * at(i, j + 1) + (u - i) * at(i + 1, j + 1));
+  };
+  int darkest = 255;
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 96; ++x) {
+      const float light =
+          1 - 0.5f * coverage(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      const int due = srgb_from_linear(static_cast<std::uint16_t>(std::lround(65535 * light)));
+      const int is = static_cast<int>(color_at(seen, x, y) & 0xff);
+      ASSERT_NEAR(is, due, 2) << x << ", " << y;
+      darkest = std::min(darkest, is);
+    }
+  }
+  EXPECT_EQ(darkest, 188);  // half the light, where it is whole
+}
+
+TEST_F(Draw, AShadowIsCachedApartFromItsPictureAndFadesWithIt) {
+  const Image picture = make_image(16, 16, 250, 20, 20);
+  const TextureKey key{3, 1};
+  const Shadow shadow{};
+  const auto shot = [&](const SpriteDraw& s) {
+    renderer().begin_frame(48, 48);
+    renderer().clear(srgb(0xffffff));
+    renderer().draw_shadow(s, shadow);
+    renderer().end_frame();
+    return color_at(renderer().read_pixels(), 24, 22) & 0xff;
+  };
+  const SpriteDraw whole{.image = picture, .key = key, .position = {24, 24}, .anchor = {8, 16}};
+  const auto once = shot(whole);
+  EXPECT_LT(once, 0xf0u);
+  EXPECT_FALSE(renderer().is_cached(key));
+  EXPECT_TRUE(renderer().is_cached(shadow_key(key, shadow)));
+  SpriteDraw again = whole;
+  again.image = {};
+  EXPECT_EQ(shot(again), once);
+  EXPECT_EQ(renderer().stats().uploads, 0u);
+  again.fade = {.key = {9, 9}, .share = 0.5f};  // there is no such picture: half of the shadow
+  EXPECT_GT(shot(again), once);
+  renderer().forget(3);
+  EXPECT_FALSE(renderer().is_cached(shadow_key(key, shadow)));
+  renderer().draw_shadow({.key = {4, 4}}, {.opacity = 0});  // neither picture nor shadow: nothing
+}
+
+class DrawActors : public testing::GlTest {
+ protected:
+  void SetUp() override {
+    GlTest::SetUp();
+    const SpriteData data = testing::tiny_sprite_data();
+    const auto picture = [&](std::uint32_t i) -> Result<Image> {
+      return testing::tiny_picture(data, i);
+    };
+    ASSERT_TRUE(save_pack(folder_.file("tiny.vsp"), data, picture));
+    sprite_.emplace(*load_pack(folder_.file("tiny.vsp")));
+    frames_.emplace(*sprite_, std::size_t{1} << 20);
+  }
+  ActorDraw entry(const Actor& actor) { return {&*sprite_, &*frames_, &actor}; }
+  Image shot(std::span<const ActorDraw> actors, const Shadow* shadow = nullptr) {
+    renderer().begin_frame(96, 80);
+    renderer().clear(srgb(0xffffff));
+    draw_actors(renderer(), actors, 0, shadow);
+    renderer().end_frame();
+    return renderer().read_pixels();
+  }
+  testing::TempFolder folder_;
+  std::optional<Sprite> sprite_;
+  std::optional<FrameCache> frames_;
+};
+
+TEST_F(DrawActors, TheLowerOneStandsInFrontAndEqualOnesKeepTheirOrder) {
+  Actor red = make_actor(*sprite_, {40, 30}), green = red;
+  red.sample = testing::tiny_sample(0, 3);
+  green.sample = testing::tiny_sample(3, 3);
+  const auto red_on_top = [](const Image& seen) {
+    const std::uint32_t c = color_at(seen, 40, 30);
+    return (c >> 16 & 0xff) > (c >> 8 & 0xff);
+  };
+  std::array<ActorDraw, 2> both{entry(red), entry(green)};
+  EXPECT_FALSE(red_on_top(shot(both)));
+  red.position.y += kFixedOne;  // nearer
+  EXPECT_TRUE(red_on_top(shot(both)));
+  both[1].depth = 1000;
+  EXPECT_FALSE(red_on_top(shot(both)));
+  both[0].depth = 1000;
+  EXPECT_FALSE(red_on_top(shot(both)));  // a tie: the later one
+  std::swap(both[0], both[1]);
+  EXPECT_TRUE(red_on_top(shot(both)));
+}
+
+TEST_F(DrawActors, NoShadowFallsOnAnActor) {
+  Actor near = make_actor(*sprite_, {40, 42}), far = make_actor(*sprite_, {40, 30});
+  near.sample = far.sample = testing::tiny_sample(0, 3);
+  const std::array<ActorDraw, 2> both{entry(near), entry(far)};
+  const Shadow shadow{.opacity = 1, .squash = 1};
+  const Image with = shot(both, &shadow), without = shot(both);
+  EXPECT_EQ(color_at(with, 40, 30), color_at(without, 40, 30));
+  EXPECT_NE(color_at(with, 40, 22), color_at(without, 40, 22));
+  EXPECT_EQ(renderer().stats().sprites, 2u);
+}
+
+TEST_F(DrawActors, AFadingActorIsDrawnFromBothPictures) {
+  Actor actor = make_actor(*sprite_, {40, 30});
+  ActorFade fade;
+  actor.sample = testing::tiny_sample(0, 3);
+  follow(*sprite_, actor, fade);
+  const std::array<ActorDraw, 1> before{entry(actor)};
+  const std::uint32_t old_color = color_at(shot(before), 40, 30);
+  actor.sample = testing::tiny_sample(5, 4);
+  follow(*sprite_, actor, fade, 3);
+  const std::array<ActorDraw, 1> alone{entry(actor)};
+  const std::uint32_t new_color = color_at(shot(alone), 40, 30);
+  std::array<ActorDraw, 1> fading{entry(actor)};
+  fading[0].fade = &fade;
+  const std::uint32_t mixed = color_at(shot(fading), 40, 30);
+  for (const unsigned shift : {0u, 8u, 16u}) {
+    const auto light = [&](std::uint32_t c) {
+      return linear_from_srgb(static_cast<std::uint8_t>(c >> shift & 0xff)) / 65535.0;
+    };
+    EXPECT_NEAR(light(mixed), 0.75 * light(old_color) + 0.25 * light(new_color), 0.02);
+  }
 }
 
 TEST_F(Draw, ShowsTheRightPictureAfterPagesWereEmptied) {
