@@ -20,9 +20,9 @@ vsprite_embed_shaders(vsprite_draw ${PROJECT_SOURCE_DIR}/shaders/puppet)
 
 # Window, keys, sound: one file per platform.
 if(VSPRITE_WINDOW)
-  pkg_check_modules(DRAW_DEPS REQUIRED IMPORTED_TARGET sdl2)
+  pkg_check_modules(VSPRITE_SDL2 REQUIRED IMPORTED_TARGET sdl2)
   target_sources(vsprite_draw PRIVATE src/input_state.cpp src/sdl.cpp src/sdl_pictures.cpp src/session.cpp)
   target_sources(vsprite_draw PUBLIC FILE_SET HEADERS FILES
     include/vsprite/sdl.h include/vsprite/session.h include/vsprite/window.h)
-  target_link_libraries(vsprite_draw PRIVATE PkgConfig::DRAW_DEPS)
+  target_link_libraries(vsprite_draw PRIVATE PkgConfig::VSPRITE_SDL2)
 endif()

@@ -31,9 +31,9 @@ int main(int argc, char** argv) {
   vsprite_get_hash(hash, &states);
   printf("%016" PRIx64 "\n", states);
   actor.x = 320 * 65536, actor.y = 180 * 65536; /* the middle of the picture */
-  if (argc > 4 && (vsprite_make_canvas(640, 360, 0x9CC4D8, &canvas) ||
-                   vsprite_draw_actor(canvas, frames, &actor, 0, 1) ||
-                   vsprite_save_canvas(canvas, argv[4])))
+  if (argc > 4 &&
+      (vsprite_make_canvas(640, 360, 0x9CC4D8, &canvas) ||
+       vsprite_draw_actor(canvas, frames, &actor, 0, 1) || vsprite_save_canvas(canvas, argv[4])))
     return failed();
   vsprite_close_canvas(&canvas), vsprite_close_hash(&hash), vsprite_close_keys(&keys);
   vsprite_close_frames(&frames), vsprite_close_sprite(&sprite);
