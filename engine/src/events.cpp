@@ -109,7 +109,7 @@ TickEvents events_of(const Sprite& sprite, const Actor& actor) noexcept {
   const std::uint32_t first = actor.sample - actor.skipped;
   const auto begin = std::lower_bound(events.begin(), events.end(), SampleEvent{first, 0});
   const auto end = std::lower_bound(begin, events.end(), SampleEvent{actor.sample + 1, 0});
-  now.named = {begin, end};
+  now.named = {events.data() + (begin - events.begin()), static_cast<std::size_t>(end - begin)};
   return now;
 }
 

@@ -46,7 +46,7 @@ constexpr Unpacking make_unpacking(int width) {
   return u;
 }
 
-constexpr std::array<Unpacking, 8> kUnpacking{
+[[maybe_unused]] constexpr std::array<Unpacking, 8> kUnpacking{
     make_unpacking(kWidths[0]), make_unpacking(kWidths[1]), make_unpacking(kWidths[2]),
     make_unpacking(kWidths[3]), make_unpacking(kWidths[4]), make_unpacking(kWidths[5]),
     make_unpacking(kWidths[6]), make_unpacking(kWidths[7])};

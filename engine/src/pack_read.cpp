@@ -151,12 +151,11 @@ Check check_names(const PackContent& content) {
     if (found == 0) return finding("section-missing", name, kHeaderBytes, "is missing");
     if (found > 1) return finding("section-twice", name, kHeaderBytes, "stands there twice");
   }
-  const auto modes = count("CTRL");
+  const auto modes = static_cast<std::uint64_t>(count("CTRL"));
   if (modes == 0) return finding("section-missing", "CTRL", kHeaderBytes, "is missing");
   if (modes <= kMaxModes) return {};
   return finding("mode-count", "CTRL", kHeaderBytes,
-                 number(static_cast<std::uint64_t>(modes)) + " modes, at most " +
-                     number(kMaxModes) + " are read");
+                 number(modes) + " modes, at most " + number(kMaxModes) + " are read");
 }
 
 // One section in memory, with its sum checked.

@@ -163,7 +163,11 @@ Result<void> FilmWriter::Impl::start(double fps) {
   posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
   posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&actions, 2, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+#ifdef __EMSCRIPTEN__
+  const int failure = ENOSYS;  // a browser starts no programs
+#else
   const int failure = ::posix_spawnp(&child, "ffmpeg", &actions, nullptr, argv.data(), environ);
+#endif
   posix_spawn_file_actions_destroy(&actions);
   ::close(ends[0]);
   if (failure != 0) {

@@ -86,6 +86,7 @@ class Play {
     state_.actor = make_actor(sprite, {}, options.seed, mode);
     state_.zoom = fitting_zoom(sprite, options.height);
     state_.overlay = options.overlay;
+    after_tick_ = options.after_tick;
     state_.hint = session.is_scripted() ? 0.0f : 1.0f;
     state_.costs.fill(-1);
     const SpriteData& data = sprite.data();
@@ -120,6 +121,7 @@ class Play {
   KeyScript script_;  // its actions; the session steers by it
   PlayState state_;
   int fade_;
+  std::function<void(const Actor&)> after_tick_;
   bool still_ = false;
   double last_seconds_ = 0;
 };
@@ -164,6 +166,7 @@ void Play::tick() {
   const std::uint32_t before = state_.actor.sample;
   step(sprite_, state_.actor);
   vsprite::follow(sprite_, state_.actor, state_.fade, fade_);
+  if (after_tick_) after_tick_(state_.actor);
   float& cost = state_.costs[state_.cost_head];
   state_.cost_head = (state_.cost_head + 1) % window::kHistory;
   cost = -1;

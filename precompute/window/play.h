@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
+#include "vsprite/actor.h"
 #include "vsprite/result.h"
 #include "vsprite/show.h"
 #include "vsprite/sprite.h"
@@ -27,6 +29,7 @@ struct PlayOptions {
   bool overlay = false;      ///< starts with the F1 overlay shown
   int width = 1280;          ///< px
   int height = 720;
+  std::function<void(const Actor&)> after_tick{};  ///< told of every state; empty: nobody is
 };
 
 /// Which commands the mode cannot follow and what it does instead, a line each, for stdout; empty
