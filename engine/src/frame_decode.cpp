@@ -57,7 +57,7 @@ struct alignas(64) WideUnpacking {
   std::array<std::array<std::uint8_t, 8>, 8> offsets, bits, signs, stored;
 };
 
-constexpr WideUnpacking kWide = [] {
+[[maybe_unused]] constexpr WideUnpacking kWide = [] {
   WideUnpacking u{};
   for (std::size_t code = 0; code < 8; ++code) {
     const unsigned width = kWidths[code];
@@ -76,7 +76,7 @@ struct alignas(64) Places {
   std::array<std::uint8_t, 64> red_blue_alpha, green, alpha;
 };
 
-constexpr Places kPlaces = [] {
+[[maybe_unused]] constexpr Places kPlaces = [] {
   Places places{};
   for (std::size_t i = 0; i < 64; ++i) {
     const std::size_t pixel = i / 4, alpha = pixel / 8 * 32 + pixel % 8;

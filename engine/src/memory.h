@@ -38,7 +38,7 @@ class MemoryScope {
   MemoryScope& operator=(const MemoryScope&) = delete;
 
  private:
-  Memory* before_;
+  [[maybe_unused]] Memory* before_;
 };
 
 }  // namespace vsprite::detail
