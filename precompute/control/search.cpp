@@ -545,6 +545,8 @@ void Beam::report() {
 Result<Clip> Beam::run() {
   seed();
   while (take_tick()) {
+    if (config_.go_on && !config_.go_on())
+      return Error{ErrorCode::Interrupted, "interrupted: no run was found yet"};
     rows_.trim();
     each_tile([this](std::size_t t) { leave(t); });
     least_ = kNoCost;

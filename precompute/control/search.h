@@ -29,6 +29,8 @@ struct SearchConfig {
   int jobs = 0;       ///< threads, 0 = all; the result does not depend on it
   std::function<void(double)> progress =
       {};  ///< share of the path behind the furthest; may be empty
+  /// Asked every tick; false ends the search without a result. May be empty.
+  std::function<bool()> go_on = {};
   /// Shown every tick's survivors, in order; for tests, may be empty.
   std::function<void(std::span<const PathState>)> survivors = {};
 };
@@ -56,7 +58,8 @@ struct SearchStats {
   std::uint64_t evaluated = 0;  ///< successors looked at
 };
 
-/// Errors: BadContent (no sequence arrives: says where the last ones were dropped).
+/// Errors: BadContent (no sequence arrives: says where the last ones were dropped), Interrupted
+/// (`go_on` said no).
 Result<Clip> search_path(const PathCost& path, const SearchConfig& config,
                          SearchStats* stats = nullptr);
 

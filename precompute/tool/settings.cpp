@@ -278,7 +278,8 @@ void add_use_options(Row& t) {
       "held directions and actions by seconds: \"0.0 right; 2.5 play jump 4\", or a file of them",
       " steer play ");
   t.whole("frames", "N", &Settings::frames, 0, 1000000000,
-          "ticks to run; 0 = 12 s (steer), for ever (play, label)", " steer play label ");
+          "ticks to run; 0 = 12 s (steer), for ever (play, label, path --window)",
+          " steer play label path ");
   t.text("mode", "MODE", &Settings::mode,
          "which solved tables; default: the pack's own (steer), paper (dump)",
          " steer dump play report ", "paper|responsive");
@@ -290,11 +291,11 @@ void add_use_options(Row& t) {
       "fade", "LENGTH", &Settings::fade,
       "ticks over which a jump is cross-faded; auto: only those dearer than the threshold, by cost",
       " play ", "auto|off|2|3|4|5|6");
-  t.flag("headless", &Settings::headless, "no window: play the keys and end", " play label ");
+  t.flag("headless", &Settings::headless, "no window: play the keys and end", " play label path ");
   t.text(
       "record", "FILE", &Settings::record,
       "film of the run (.mp4) or last picture (.png); steer: the run itself, for --replay (.vsr)",
-      " play label steer ");
+      " play label steer path ");
   t.text("replay", "FILE", &Settings::replay,
          "makes a recorded run again; exit 3 at the first tick that comes out otherwise",
          " steer ");
@@ -309,6 +310,11 @@ void add_use_options(Row& t) {
 void add_path_options(Row& t) {
   t.text("script", "FILE", &Settings::script,
          "a path: one point `x y` a line, output px; or a scene (.toml)", " path ");
+  t.flag("window", &Settings::window,
+         "draw the path in a window, over the backdrop, and see the sprite follow; saves it to "
+         "--script (path.txt)",
+         " path ")
+      .in_config = false;
   t.text("backdrop", "FILE", &Settings::backdrop,
          "picture (.png) behind the sprite, or a film that is shown over and over", " path ");
   t.text(

@@ -103,6 +103,7 @@ struct Settings {
   std::string resume;
   std::string clip;
   std::string search = "replace";
+  bool window = false;
 
   // Looking into it.
   std::string what;

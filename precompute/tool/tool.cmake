@@ -17,6 +17,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/label_store.cpp
   tool/label_session.cpp
   tool/labels.cpp
+  tool/path_edit.cpp
   tool/path_film.cpp
   tool/path_script.cpp
   tool/pictures.cpp
@@ -49,6 +50,7 @@ add_executable(vsprite
   tool/commands/train.cpp
   tool/commands/path.cpp
   tool/commands/path_scene.cpp
+  tool/commands/path_window.cpp
   tool/commands/report.cpp
 )
 target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)

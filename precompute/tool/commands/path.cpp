@@ -28,20 +28,6 @@ Result<void> check_output(const std::string& path) {
           "due, or a folder for PNG pictures, ending in `/`"};
 }
 
-PathWeights weights_of(const Settings& settings, const Sprite& sprite) {
-  const SpeedScale speeds = measure_speeds(sprite.samples());
-  const double usual = speeds.usual > 0 ? speeds.usual : speeds.moving;
-  const double body = std::max(1.0, double{sprite.data().body_length});
-  PathWeights weights;
-  weights.w1 = settings.path_w1;
-  weights.w2 = settings.w2 / (body * body);
-  weights.tau = settings.tau;
-  weights.usual_speed = usual;
-  weights.v0 = usual_v0(speeds);
-  weights.least_speed = weights.v0 / 4;
-  return weights;
-}
-
 Result<void> write_outputs(const Settings& settings, const Sprite& sprite, const Clip& clip,
                            const Stage& stage, Console& console) {
   if (!settings.trace.empty())
@@ -108,6 +94,20 @@ InterruptNote::~InterruptNote() {
 }
 bool InterruptNote::is_set() noexcept { return interrupts != 0; }
 
+PathWeights weights_of(const Settings& settings, const Sprite& sprite) {
+  const SpeedScale speeds = measure_speeds(sprite.samples());
+  const double usual = speeds.usual > 0 ? speeds.usual : speeds.moving;
+  const double body = std::max(1.0, double{sprite.data().body_length});
+  PathWeights weights;
+  weights.w1 = settings.path_w1;
+  weights.w2 = settings.w2 / (body * body);
+  weights.tau = settings.tau;
+  weights.usual_speed = usual;
+  weights.v0 = usual_v0(speeds);
+  weights.least_speed = weights.v0 / 4;
+  return weights;
+}
+
 Result<Stage> make_stage(const Settings& settings, const std::vector<Vec2>& points,
                          float body_length) {
   Stage out;
@@ -167,6 +167,7 @@ Result<void> write_pack_clips(const Settings& settings, const Sprite& sprite,
 
 Result<int> run_path(const Settings& settings, Console& console) {
   if (settings.film.empty()) return Error{ErrorCode::BadSetting, "a pack is due: PACK.vsp"};
+  if (settings.window) return draw_path(settings, console);
   if (settings.script.empty())
     return Error{ErrorCode::BadSetting,
                  "--script FILE is due: a path, one point `x y` a line, or a scene (.toml)"};

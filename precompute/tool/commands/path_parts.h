@@ -42,6 +42,11 @@ Result<void> write_pack_clips(const Settings& settings, const Sprite& sprite,
 /// A found run as the pack holds it.
 PackClip to_pack_clip(const Sprite& sprite, const Clip& clip, std::string name);
 
+/// The weights of equation 1 that the settings ask for.
+PathWeights weights_of(const Settings& settings, const Sprite& sprite);
+
+/// The verb `path` with --window: a path is drawn.
+Result<int> draw_path(const Settings& settings, Console& console);
 /// The verb `path` where its script is a scene.
 Result<int> run_scene(const Settings& settings, const std::string& text, Console& console);
 
