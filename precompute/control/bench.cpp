@@ -62,10 +62,7 @@ std::vector<CurvePoint> make_grid(const Sprite& sprite) {
   point.mode = "paper";
   for (const ControlMode& mode : modes) {
     if (mode.by_state || mode.headings != 8) continue;
-    point.paper = {.alpha = round_to(static_cast<double>(mode.alpha)),
-                   .w1 = round_to(static_cast<double>(mode.w1)),
-                   .cap = round_to(static_cast<double>(mode.cap)),
-                   .free_steps = static_cast<int>(mode.stages) - 1};
+    point.paper = paper_config(mode);
     point.is_default = true;
     add(point);
     point.is_default = false;
@@ -163,6 +160,14 @@ Result<void> measure_point(const Sprite& sprite, const Material& m, const BenchC
 }
 
 }  // namespace
+
+SolveConfig paper_config(const ControlMode& mode) {
+  return {.alpha = round_to(static_cast<double>(mode.alpha)),
+          .w1 = round_to(static_cast<double>(mode.w1)),
+          .cap = round_to(static_cast<double>(mode.cap)),
+          .free_steps = static_cast<int>(mode.stages) - 1,
+          .headings = static_cast<int>(mode.headings)};
+}
 
 JointConfig joint_config(const ControlMode& mode) {
   return {.alpha = round_to(static_cast<double>(mode.alpha)),

@@ -56,6 +56,7 @@ Result<BenchResult> measure_curves(const Sprite& sprite, const BenchConfig& conf
 
 /// The settings that a mode was solved with.
 JointConfig joint_config(const ControlMode& mode);
+SolveConfig paper_config(const ControlMode& mode);
 
 /// The same as two small diagrams, median frames to turn over p99 and over the mean of T.
 std::string curves_svg(const BenchResult& result, const std::string& title);

@@ -5,6 +5,7 @@ target_sources(vsprite_precompute PRIVATE
   control/action_bench.cpp
   control/advice.cpp
   control/bench.cpp
+  control/choose.cpp
   control/flip.cpp
   control/follow_bench.cpp
   control/joint.cpp
