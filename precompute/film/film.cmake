@@ -12,6 +12,7 @@ target_sources(vsprite_precompute PRIVATE
   film/lanes.cpp
   film/grid.cpp
   film/silhouette.cpp
+  film/behind.cpp
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp
@@ -27,4 +28,4 @@ target_sources(vsprite_precompute PRIVATE
 # become lanes. The results are the same bytes. The scope is that of precompute/, where these files
 # are compiled.
 set_source_files_properties(film/silhouette.cpp film/unmix.cpp film/matte.cpp film/grid.cpp
-  film/lanes.cpp PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")
+  film/lanes.cpp film/behind.cpp PROPERTIES COMPILE_OPTIONS "-fno-math-errno;-fno-trapping-math")

@@ -4,7 +4,8 @@
 // Measures the screen from frames spread over the film. A screen of one colour is the mode of the
 // colour histogram, then a robust quadratic over the picture, then a robust mean per pixel of what
 // lies near that surface: the prior survives a subject that rests in one place for most of the
-// film, where a plain temporal median shows the subject. A standing camera has the median instead.
+// film, where a plain temporal median shows the subject. A standing camera has the median instead,
+// and behind what rests the colour that continues the rest (film/behind.h).
 #include "film/plate.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "film/behind.h"
 #include "film/color.h"
 #include "film/coverage.h"
 #include "film/light.h"
@@ -471,6 +473,13 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
   find_centres(
       grids, bare, [](std::size_t) { return [](const Grid&) { return true; }; }, known);
   find_bare(grids, bare);
+  const double noise =
+      std::sqrt(bare.sigma[0] * bare.sigma[0] +
+                2 * (bare.sigma[1] * bare.sigma[1] + bare.sigma[2] * bare.sigma[2]));
+  if (detail::look_behind(grids, static_cast<float>(noise), bare.centre)) {
+    bare.in.clear();
+    find_bare(grids, bare);
+  }
   if (bare.steady < least_steady)
     return Error{ErrorCode::BadContent,
                  "no steady background: no colour fills the picture and " +

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "support/synthetic_film.h"
 
 namespace vsprite {
@@ -62,27 +65,75 @@ TEST(Plate, SeesBehindASubjectThatRests) {
   EXPECT_LT(mean_plate_error(scene, *screen), 0.8);
 }
 
+// Stripes of many colours behind everything: no single screen.
+std::array<int, 3> stripes(int x, int y) {
+  const int stripe = x / 16 * 37 % 160;
+  return {60 + y / 30 * 20, 200 - stripe, 40 + stripe};
+}
+
+Frame before_stripes(const SyntheticFilm& scene, int index, const Disc& disc) {
+  Image image = scene.image(index, {disc});
+  std::uint32_t state = 99u + 31u * static_cast<std::uint32_t>(index);
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      if (scene.alpha(disc, x, y) > 0.5) continue;
+      state = state * 1664525u + 1013904223u;
+      const auto rgb = stripes(x, y);
+      for (std::size_t c = 0; c < 3; ++c)
+        image.rgba[static_cast<std::size_t>(4 * (y * scene.width + x)) + c] =
+            static_cast<std::uint8_t>(rgb[c] + static_cast<int>(state >> 30) - 1);
+    }
+  return to_frame(image, index);
+}
+
+// Mean over a square about a place, of all channels, of |plate - stripes|.
+double stripes_error(const ScreenModel& screen, int cx, int cy, int radius) {
+  double sum = 0;
+  for (int y = cy - radius; y <= cy + radius; ++y)
+    for (int x = cx - radius; x <= cx + radius; ++x) {
+      const auto rgb = rgb_at(screen.plate, x, y);
+      const auto truth = stripes(x, y);
+      for (std::size_t c = 0; c < 3; ++c) sum += std::abs(rgb[c] - truth[c]);
+    }
+  return sum / (3.0 * (2 * radius + 1) * (2 * radius + 1));
+}
+
 TEST(Plate, TakesAStandingCameraForAPlate) {
-  SyntheticFilm scene;
+  const SyntheticFilm scene;
   std::vector<Frame> frames;
-  // Stripes of many colours behind everything: no single screen.
-  for (int i = 0; i < 16; ++i) {
-    const Disc disc{60.0 + 12 * i, 90.0 + 4 * i};
-    Image image = scene.image(i, {disc});
-    for (int y = 0; y < scene.height; ++y)
-      for (int x = 0; x < scene.width; ++x) {
-        if (scene.alpha(disc, x, y) > 0.5) continue;
-        std::uint8_t* p = image.rgba.data() + 4 * (y * scene.width + x);
-        const int stripe = x / 16 * 37 % 160;
-        p[0] = static_cast<std::uint8_t>(60 + y / 30 * 20);
-        p[1] = static_cast<std::uint8_t>(200 - stripe);
-        p[2] = static_cast<std::uint8_t>(40 + stripe);
-      }
-    frames.push_back(to_frame(image, i));
-  }
+  for (int i = 0; i < 16; ++i)
+    frames.push_back(before_stripes(scene, i, {60.0 + 12 * i, 90.0 + 4 * i}));
   const auto screen = measure_screen(frames, {});
   ASSERT_TRUE(screen) << screen.error().message;
   EXPECT_EQ(screen->kind, KeyKind::Plate) << screen->reason;
+}
+
+// No colour to go by: the median over time would show the subject.
+TEST(Plate, SeesBehindASubjectThatRestsBeforeAPlainPlate) {
+  const SyntheticFilm scene;
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i)
+    frames.push_back(before_stripes(scene, i, i % 3 ? Disc{160, 120} : Disc{60.0 + 4 * i, 60}));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  EXPECT_EQ(screen->kind, KeyKind::Plate) << screen->reason;
+  EXPECT_LT(stripes_error(*screen, 160, 120, 12), 8);
+}
+
+// Light plays on it, so it is not a part of the plate: what lies behind is made up, unlike it.
+TEST(Plate, DoesNotTakeWhatIsNeverGoneForThePlate) {
+  SyntheticFilm scene;
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i) {
+    scene.subject[0] = 225 + 8 * std::sin(1.7 * i);
+    scene.subject[1] = 120 + 8 * std::sin(1.7 * i);
+    frames.push_back(before_stripes(scene, i, {160 + 12 * std::sin(0.9 * i), 120}));
+  }
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  const auto rgb = rgb_at(screen->plate, 160, 120);
+  EXPECT_GT(std::abs(rgb[0] - 225) + std::abs(rgb[1] - 120) + std::abs(rgb[2] - 40), 60);
+  EXPECT_GT(screen->hidden, 0);
 }
 
 TEST(Plate, RefusesAFilmWithoutABackground) {
