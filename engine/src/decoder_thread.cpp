@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "memory.h"
+#include "pack_format.h"
 
 namespace vsprite::detail {
 
@@ -70,7 +71,8 @@ bool DecoderThread::decode_one() {
     fresh.front().is_guess = &next == &later_;
     next.pop_front();
   }
-  if (!sprite_.decode_frame(fresh.front().sample, fresh.front().image)) fresh.front().image = {};
+  if (!sprite_.impl().decode_trimmed(fresh.front().sample, fresh.front().image))
+    fresh.front().image = {};
   const std::lock_guard lock(mutex_);
   ready_.splice(ready_.end(), fresh);
   return true;

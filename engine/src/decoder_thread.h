@@ -12,6 +12,7 @@
 #include <mutex>
 #include <thread>
 
+#include "frame_codec.h"
 #include "vsprite/sprite.h"
 
 namespace vsprite::detail {
@@ -19,7 +20,7 @@ namespace vsprite::detail {
 struct DecodedFrame {
   std::uint32_t sample = 0;
   bool is_guess = false;  ///< was asked for `later`
-  Image image;
+  TrimmedImage image;     ///< of no size: could not be decoded
 };
 
 class DecoderThread {
@@ -37,7 +38,7 @@ class DecoderThread {
   /// many.
   void ask(std::deque<std::uint32_t>& soon, std::deque<std::uint32_t>& later,
            std::deque<std::uint32_t>& dropped);
-  /// Moves what is ready to the end of `frames`; a picture of no size could not be decoded.
+  /// Moves what is ready to the end of `frames`.
   void take(std::list<DecodedFrame>& frames);
 
  private:

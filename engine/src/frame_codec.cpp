@@ -119,6 +119,52 @@ bool FrameCodec::decode(int width, int height, Image& image) {
   return true;
 }
 
+bool FrameCodec::decode(int width, int height, TrimmedImage& image) {
+  if (!decode(width, height, whole_)) return false;
+  image.width = width;
+  image.height = height;
+  image.rows.clear();
+  image.rows.reserve(parts_.rows.size());
+  std::size_t pixels = 0;
+  const Run* run = parts_.runs.data();
+  for (const RowHead& head : parts_.rows) {
+    image.rows.push_back(head.runs == 0 ? Run{} : Run{run->begin, run[head.runs - 1].end});
+    run += head.runs;
+    pixels += image.rows.back().end - image.rows.back().begin;
+  }
+  image.rgba.clear();
+  image.rgba.reserve(4 * pixels);
+  const std::uint8_t* from = whole_.rgba.data();
+  for (const Run& row : image.rows) {
+    image.rgba.insert(image.rgba.end(), from + std::size_t{4} * row.begin,
+                      from + std::size_t{4} * row.end);
+    from += 4 * static_cast<std::size_t>(width);
+  }
+  return true;
+}
+
+void expand(const TrimmedImage& trimmed, Image& image) {
+  const auto width = static_cast<std::size_t>(trimmed.width);
+  image.rgba.clear();
+  image.rgba.reserve(4 * width * trimmed.rows.size());
+  const std::uint8_t* from = trimmed.rgba.data();
+  std::size_t blank = 0;  // since the last pixels
+  for (const Run& row : trimmed.rows) {
+    const std::size_t bytes = std::size_t{4} * (row.end - row.begin);
+    if (bytes > 0) {
+      image.rgba.resize(image.rgba.size() + 4 * (blank + row.begin));
+      image.rgba.insert(image.rgba.end(), from, from + bytes);
+      from += bytes;
+      blank = width - row.end;
+    } else {
+      blank += width;
+    }
+  }
+  image.rgba.resize(image.rgba.size() + 4 * blank);
+  image.width = trimmed.width;
+  image.height = trimmed.height;
+}
+
 namespace {
 
 // Residuals of one channel, modulo 256, as signed numbers.

@@ -52,6 +52,18 @@ inline unsigned block_codes(const std::uint8_t* widths, std::size_t block) {
   return (unsigned{at[0]} | unsigned{at[1]} << 8) >> (block % 2 * 4);
 }
 
+/// A decoded picture without the transparent pixels left and right of each row's others: about half
+/// the bytes.
+struct TrimmedImage {
+  int width = 0, height = 0;
+  std::vector<Run> rows;           ///< (height), what is held of each
+  std::vector<std::uint8_t> rgba;  ///< row after row
+
+  std::size_t bytes() const noexcept { return rgba.size() + rows.size() * sizeof(Run); }
+};
+/// The whole picture. May throw std::bad_alloc.
+void expand(const TrimmedImage& trimmed, Image& image);
+
 /// Encodes and decodes; keeps its memory from picture to picture. One thread at a time.
 class FrameCodec {
  public:
@@ -64,6 +76,7 @@ class FrameCodec {
   /// Fills `image` of the given size. False: not the compressed form of such a picture.
   /// May throw std::bad_alloc.
   bool decode(int width, int height, Image& image);
+  bool decode(int width, int height, TrimmedImage& image);
 
  private:
   bool read_parts(int width, int height);
@@ -71,7 +84,8 @@ class FrameCodec {
   std::size_t size_ = 0;
   std::vector<std::uint8_t> buffer_;  ///< compressed bytes, and room to read beyond them
   FrameParts parts_;
-  std::vector<std::uint8_t> scratch_;  ///< planes while decoding
+  std::vector<std::uint8_t> scratch_;  ///< residuals while decoding
+  Image whole_;                        ///< before it is trimmed
 };
 
 /// Bytes of scratch that decode_parts needs.

@@ -166,9 +166,12 @@ struct Sprite::Impl {
   detail::ByteSource source;        ///< where the pictures lie
   std::vector<detail::FrameEntry> frames;  ///< empty: a sprite from data alone
   std::uint64_t fram_offset = 0;
-  std::mutex mutex;        ///< guards the two below
-  std::size_t codecs = 0;  ///< made so far
-  std::vector<std::unique_ptr<detail::FrameCodec>> idle;
+  mutable std::mutex mutex;        ///< guards the two below
+  mutable std::size_t codecs = 0;  ///< made so far
+  mutable std::vector<std::unique_ptr<detail::FrameCodec>> idle;
+
+  /// As Sprite::decode_frame.
+  Result<void> decode_trimmed(std::uint32_t sample, detail::TrimmedImage& out) const;
 };
 
 }  // namespace vsprite

@@ -407,7 +407,7 @@ namespace {
 // and none takes its memory anew each time.
 class BorrowedCodec {
  public:
-  explicit BorrowedCodec(Sprite::Impl& impl) : impl_(impl) {
+  explicit BorrowedCodec(const Sprite::Impl& impl) : impl_(impl) {
     const std::lock_guard lock(impl.mutex);
     if (impl.idle.empty()) {
       codec_ = std::make_unique<detail::FrameCodec>();
@@ -426,38 +426,44 @@ class BorrowedCodec {
   detail::FrameCodec* operator->() { return codec_.get(); }
 
  private:
-  Sprite::Impl& impl_;
+  const Sprite::Impl& impl_;
   std::unique_ptr<detail::FrameCodec> codec_;
 };
 
-Result<void> decode(Sprite::Impl& impl, std::uint32_t sample, Image& out) {
+// Into an Image or a TrimmedImage.
+template <typename Picture>
+Result<void> decode(const Sprite::Impl& impl, std::uint32_t sample, Picture& out) {
   const Sample& s = impl.data.samples[sample];
-  const detail::FrameEntry& entry = impl.frames[sample];
-  BorrowedCodec codec(impl);
-  const auto bytes = codec->input(entry.bytes);
-  if (auto read = impl.source.read(impl.fram_offset + entry.offset, bytes); !read) {
-    return read.error();
+  try {
+    if (impl.frames.empty() || s.kept == 0) {
+      out.width = out.height = 0;
+      out.rgba.clear();
+      return {};
+    }
+    const detail::FrameEntry& entry = impl.frames[sample];
+    BorrowedCodec codec(impl);
+    const auto bytes = codec->input(entry.bytes);
+    if (auto read = impl.source.read(impl.fram_offset + entry.offset, bytes); !read) {
+      return read.error();
+    }
+    if (detail::hash_bytes(bytes) == entry.sum && codec->decode(s.width, s.height, out)) return {};
+    return Error{ErrorCode::CorruptData, impl.source.name() + ": picture of sample " +
+                                             std::to_string(sample) + " is damaged"};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory,
+                 "out of memory for the picture of sample " + std::to_string(sample)};
   }
-  if (detail::hash_bytes(bytes) == entry.sum && codec->decode(s.width, s.height, out)) return {};
-  return Error{ErrorCode::CorruptData, impl.source.name() + ": picture of sample " +
-                                           std::to_string(sample) + " is damaged"};
 }
 
 }  // namespace
 
 Result<void> Sprite::decode_frame(std::uint32_t sample, Image& out) const {
   assert(sample < impl_->data.samples.size());
-  try {
-    if (impl_->frames.empty() || impl_->data.samples[sample].kept == 0) {
-      out.width = out.height = 0;
-      out.rgba.clear();
-      return {};
-    }
-    return decode(*impl_, sample, out);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::OutOfMemory,
-                 "out of memory for the picture of sample " + std::to_string(sample)};
-  }
+  return decode(*impl_, sample, out);
+}
+
+Result<void> Sprite::Impl::decode_trimmed(std::uint32_t sample, detail::TrimmedImage& out) const {
+  return decode(*this, sample, out);
 }
 
 Result<Sprite> make_sprite(SpriteData data) {

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// Least recently used pictures go first. A picture whose bytes are damaged is remembered, so that
-// it is tried once only. All of this belongs to the caller's thread; the other one only turns
-// numbers of samples into pictures.
+// One list, what was shown or wanted last in front; the end is dropped. Pictures are held trimmed,
+// so that twice as much of what may be shown next fits into the budget, and handed out whole, in
+// one of two places. Where not even that fits, guesses are not decoded and dropped in turns: none
+// takes the place of what was wanted within the tick. A picture whose bytes are damaged is
+// remembered, so that it is tried once only. All of this belongs to the caller's thread; the other
+// one only turns numbers of samples into pictures.
 #include "vsprite/stream.h"
 
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <deque>
-#include <iterator>
 #include <list>
 #include <new>
 #include <system_error>
@@ -18,6 +21,7 @@
 #include <utility>
 
 #include "decoder_thread.h"
+#include "pack_format.h"
 #include "vsprite/owner.h"
 
 namespace vsprite {
@@ -27,54 +31,96 @@ namespace {
 // Samples ahead of an actor: under its present command, and under every other.
 constexpr int kSoon = 1, kLater = 1;
 constexpr int kMostTicks = 32;  // of looking for them
+constexpr std::size_t kSeen = 4096;
+
+struct Held {
+  std::uint32_t sample = 0;
+  std::int64_t wanted = 0;  ///< when, microseconds
+  detail::TrimmedImage image;
+};
+
+/// Handed out.
+struct Shown {
+  std::uint32_t sample = kNoSample;
+  Image image;
+};
+
+std::int64_t now() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
 
 }  // namespace
 
 struct FrameCache::Impl {
-  using Entries = std::list<detail::DecodedFrame>;  // the newest in front
+  using Entries = std::list<Held>;
 
   const Sprite& sprite;
   std::size_t budget;
+  std::int64_t tick_us;
   FrameCacheStats stats{};
-  Entries entries{};  ///< shown, or soon to be
-  Entries guesses{};  ///< only under another command
-  std::size_t guess_bytes = 0;
+  Entries entries{};  ///< shown or wanted last: in front
   std::unordered_map<std::uint32_t, Entries::iterator> by_sample{};
-  std::array<std::uint32_t, 2> shown{kNoSample, kNoSample};  ///< handed out last, never dropped
+  std::array<Shown, 2> shown{};  ///< the last two, the last one first
   std::unordered_set<std::uint32_t> damaged{};
-  /// Of the thread, and not yet taken over: true, for later only.
-  std::unordered_map<std::uint32_t, bool> asked{};
+  struct Asked {
+    bool is_guess = false;  ///< for later only
+    std::int64_t wanted = 0;
+  };
+  std::unordered_map<std::uint32_t, Asked> asked{};  ///< of the thread, and not yet taken over
   std::deque<std::uint32_t> soon{}, later{}, dropped{};
+  /// Actors that were looked at, and when; a place for each by its bytes.
+  struct Seen {
+    std::uint64_t actor = 0;
+    std::int64_t at = 0;
+  };
+  std::vector<Seen> seen = std::vector<Seen>(kSeen);
   std::unique_ptr<detail::DecoderThread> thread{};
 
-  bool bring_to_front(std::uint32_t sample);
+  bool bring_to_front(std::uint32_t sample, std::int64_t time);
+  bool show(std::uint32_t sample);
   bool decode_to_front(std::uint32_t sample);
   void put_in_front(Entries& one);
   void drop_oldest();
+  bool is_full(std::size_t more, std::int64_t time) const;
   bool start();
   void take_over();
-  void want(std::uint32_t sample, std::deque<std::uint32_t>& list);
-  void walk(Actor actor, int count, std::deque<std::uint32_t>& list);
+  bool is_seen(const Actor& actor, std::int64_t time);
+  void want(std::uint32_t sample, bool is_guess, std::int64_t time);
+  void walk(Actor actor, int count, bool is_guess, std::int64_t time);
 };
 
-bool FrameCache::Impl::bring_to_front(std::uint32_t sample) {
+bool FrameCache::Impl::bring_to_front(std::uint32_t sample, std::int64_t time) {
   const auto found = by_sample.find(sample);
   if (found == by_sample.end()) return false;
-  detail::DecodedFrame& one = *found->second;
-  Entries& list = one.is_guess ? guesses : entries;
-  if (one.is_guess) guess_bytes -= one.image.rgba.size();
-  one.is_guess = false;
-  entries.splice(entries.begin(), list, found->second);
+  found->second->wanted = time;
+  entries.splice(entries.begin(), entries, found->second);
   return true;
 }
 
 void FrameCache::Impl::put_in_front(Entries& one) {
-  const detail::DecodedFrame& frame = one.front();
-  by_sample[frame.sample] = one.begin();
-  stats.bytes += frame.image.rgba.size();
-  if (frame.is_guess) guess_bytes += frame.image.rgba.size();
-  Entries& list = frame.is_guess ? guesses : entries;
-  list.splice(list.begin(), one, one.begin());
+  by_sample[one.front().sample] = one.begin();
+  stats.bytes += one.front().image.bytes();
+  entries.splice(entries.begin(), one, one.begin());
+}
+
+// Whole, in the first of the two places. False: not held.
+bool FrameCache::Impl::show(std::uint32_t sample) {
+  if (!bring_to_front(sample, now())) return false;
+  if (shown[1].sample == sample) {
+    std::swap(shown[0], shown[1]);
+  } else if (shown[0].sample != sample) {
+    Shown& place = shown[1];
+    place.sample = kNoSample;
+    stats.bytes -= place.image.rgba.size();
+    place.image.rgba.clear();
+    detail::expand(by_sample.find(sample)->second->image, place.image);
+    stats.bytes += place.image.rgba.size();
+    place.sample = sample;
+    std::swap(shown[0], shown[1]);
+  }
+  return true;
 }
 
 bool FrameCache::Impl::decode_to_front(std::uint32_t sample) {
@@ -82,7 +128,8 @@ bool FrameCache::Impl::decode_to_front(std::uint32_t sample) {
   ++stats.misses;
   Entries fresh(1);
   fresh.front().sample = sample;
-  if (auto decoded = sprite.decode_frame(sample, fresh.front().image); !decoded) {
+  fresh.front().wanted = now();
+  if (auto decoded = sprite.impl().decode_trimmed(sample, fresh.front().image); !decoded) {
     // Want of memory passes, damage does not.
     if (decoded.error().code != ErrorCode::OutOfMemory) damaged.insert(sample);
     return false;
@@ -91,22 +138,19 @@ bool FrameCache::Impl::decode_to_front(std::uint32_t sample) {
   return true;
 }
 
-// Guesses may fill what is left, and a third in any case.
 void FrameCache::Impl::drop_oldest() {
-  const auto drop = [this](Entries& list, Entries::iterator at) {
-    const std::size_t bytes = at->image.rgba.size();
-    stats.bytes -= bytes;
-    if (at->is_guess) guess_bytes -= bytes;
-    by_sample.erase(at->sample);
-    return list.erase(at);
-  };
-  while (stats.bytes > budget && guess_bytes > budget / 3) drop(guesses, std::prev(guesses.end()));
-  auto at = entries.end();
-  while (stats.bytes > budget && at != entries.begin()) {
-    --at;
-    if (at->sample != shown[0] && at->sample != shown[1]) at = drop(entries, at);
+  while (stats.bytes > budget && !entries.empty()) {
+    stats.bytes -= entries.back().image.bytes();
+    by_sample.erase(entries.back().sample);
+    entries.pop_back();
   }
-  while (stats.bytes > budget && !guesses.empty()) drop(guesses, std::prev(guesses.end()));
+}
+
+// True if something would have to go that was shown or wanted in this tick. (At its beginning the
+// pictures of the last one were drawn half a tick ago, at two frames a tick.)
+bool FrameCache::Impl::is_full(std::size_t more, std::int64_t time) const {
+  return !entries.empty() && stats.bytes + more > budget &&
+         time - entries.back().wanted < tick_us * 2 / 5;
 }
 
 // ---- ahead of time ----
@@ -124,50 +168,57 @@ bool FrameCache::Impl::start() {
 
 void FrameCache::Impl::take_over() {
   if (!thread) return;
-  Entries ready;
+  std::list<detail::DecodedFrame> ready;
   thread->take(ready);
-  while (!ready.empty()) {
-    const std::uint32_t sample = ready.front().sample;
-    const bool is_good = ready.front().image.width > 0;
-    if (is_good) asked.erase(sample);  // what cannot be decoded is not asked for again
-    if (!is_good || by_sample.contains(sample)) {
-      ready.pop_front();
-      continue;
-    }
+  if (ready.empty()) return;
+  const std::int64_t time = now();
+  for (detail::DecodedFrame& frame : ready) {
+    const auto found = asked.find(frame.sample);
+    const Asked by = found == asked.end() ? Asked{frame.is_guess, time} : found->second;
+    if (frame.image.width == 0) continue;  // cannot be decoded, and is not asked for again
+    if (found != asked.end()) asked.erase(found);
+    if (by_sample.contains(frame.sample)) continue;
     ++stats.ahead;
-    put_in_front(ready);
+    if (by.is_guess && is_full(frame.image.bytes(), time)) continue;
+    Entries fresh(1);
+    fresh.front() = {frame.sample, by.wanted, std::move(frame.image)};
+    put_in_front(fresh);
   }
   drop_oldest();
 }
 
-void FrameCache::Impl::want(std::uint32_t sample, std::deque<std::uint32_t>& list) {
-  const bool is_guess = &list == &later;
-  if (const auto held = by_sample.find(sample); held != by_sample.end()) {
-    if (!is_guess)
-      bring_to_front(sample);
-    else if (held->second->is_guess)
-      guesses.splice(guesses.begin(), guesses, held->second);
-    return;
-  }
-  if (damaged.contains(sample)) return;
-  const auto [asked_before, is_new] = asked.try_emplace(sample, is_guess);
-  if (!is_new && (is_guess || !asked_before->second)) return;
-  asked_before->second = is_guess;
-  list.push_back(sample);
+void FrameCache::Impl::want(std::uint32_t sample, bool is_guess, std::int64_t time) {
+  if (bring_to_front(sample, time) || damaged.contains(sample)) return;
+  if (is_guess && is_full(budget / 64, time)) return;
+  const auto [before, is_new] = asked.try_emplace(sample, Asked{is_guess, time});
+  before->second.wanted = time;
+  if (!is_new && (is_guess || !before->second.is_guess)) return;
+  before->second.is_guess = is_guess;
+  (is_guess ? later : soon).push_back(sample);
 }
 
-void FrameCache::Impl::walk(Actor actor, int count, std::deque<std::uint32_t>& list) {
+void FrameCache::Impl::walk(Actor actor, int count, bool is_guess, std::int64_t time) {
   for (int tick = 0; tick < kMostTicks && count > 0; ++tick) {
     const std::uint32_t before = actor.sample;
     step(sprite, actor);
     if (actor.sample == before) continue;
-    want(actor.sample, list);
+    want(actor.sample, is_guess, time);
     --count;
   }
 }
 
+// Between two ticks an actor is drawn more than once; it is looked at once.
+bool FrameCache::Impl::is_seen(const Actor& actor, std::int64_t time) {
+  const std::uint64_t sum =
+      detail::hash_bytes({reinterpret_cast<const std::uint8_t*>(&actor), sizeof actor});
+  Seen& place = seen[sum % kSeen];
+  if (place.actor == sum && time - place.at < tick_us) return true;
+  place = {sum, time};
+  return false;
+}
+
 FrameCache::FrameCache(const Sprite& sprite, std::size_t budget)
-    : impl_(new Impl{sprite, budget}) {}
+    : impl_(new Impl{sprite, budget, static_cast<std::int64_t>(1e6 / sprite.fps())}) {}
 
 FrameCache::~FrameCache() = default;
 
@@ -176,37 +227,38 @@ ImageView FrameCache::frame(std::uint32_t sample) noexcept {
   bool is_good = false;
   try {
     m.take_over();
-    is_good = m.bring_to_front(sample);
+    is_good = m.show(sample);
     if (is_good) ++m.stats.hits;
-    is_good = is_good || m.decode_to_front(sample);
+    is_good = is_good || (m.decode_to_front(sample) && m.show(sample));
   } catch (const std::bad_alloc&) {
     // Drawing never fails: the last good picture stands in.
   }
   if (!is_good) ++m.stats.damaged;
-  if (is_good && sample != m.shown[0]) m.shown = {sample, m.shown[0]};
   m.drop_oldest();
-  const auto found = m.by_sample.find(m.shown[0]);
-  return found == m.by_sample.end() ? ImageView() : ImageView(found->second->image);
+  return m.shown[0].sample == kNoSample ? ImageView() : ImageView(m.shown[0].image);
 }
 
 void FrameCache::look_ahead(const Actor& actor) noexcept {
   Impl& m = *impl_;
   try {
-    if (!m.start()) return;
+    const std::int64_t time = now();
+    if (!m.start() || m.is_seen(actor, time)) return;
     m.take_over();
     if ((actor.owner & kOwnerKind) == static_cast<int>(PositionOwner::Game)) {  // it knows where to
       for (std::uint32_t s = actor.sample; s < actor.sample + kSoon; ++s) {
         if (!m.sprite.is_natural(s, s + 1)) break;
-        m.want(s + 1, m.soon);
+        m.want(s + 1, false, time);
       }
     } else {
-      m.walk(actor, kSoon, m.soon);
+      m.walk(actor, kSoon, false, time);
       for (int d = 0; d < kDirectionCount; ++d) {
         Actor other = actor;
         set_direction(m.sprite, other, static_cast<Direction>(d));
-        if (std::memcmp(&other, &actor, sizeof actor) != 0) m.walk(other, kLater, m.later);
+        if (std::memcmp(&other, &actor, sizeof actor) != 0) m.walk(other, kLater, true, time);
       }
     }
+    m.drop_oldest();
+    if (m.soon.empty() && m.later.empty()) return;
     m.thread->ask(m.soon, m.later, m.dropped);
     for (const std::uint32_t sample : m.dropped) m.asked.erase(sample);
     m.dropped.clear();

@@ -69,6 +69,23 @@ TEST(FrameCodec, GivesBackEveryPictureExactlyWithEveryInstructionSet) {
   detail::use_frame_target(-1);
 }
 
+TEST(FrameCodec, ATrimmedPictureHoldsNoMarginsAndIsMadeWholeAgain) {
+  FrameCodec codec;
+  for (const Image& picture : pictures()) {
+    const auto encoded = codec.encode(picture);
+    const std::vector<std::uint8_t> bytes(encoded.begin(), encoded.end());
+    std::copy(bytes.begin(), bytes.end(), codec.input(bytes.size()).begin());
+    detail::TrimmedImage trimmed;
+    ASSERT_TRUE(codec.decode(picture.width, picture.height, trimmed));
+    ASSERT_LE(trimmed.rgba.size(), picture.rgba.size());
+    Image whole{3, 3, std::vector<std::uint8_t>(36, 7)};  // what it held is gone
+    detail::expand(trimmed, whole);
+    ASSERT_EQ(whole.rgba, picture.rgba) << picture.width << " x " << picture.height;
+    ASSERT_EQ(whole.width, picture.width);
+    ASSERT_EQ(whole.height, picture.height);
+  }
+}
+
 TEST(FrameCodec, TransparentPicturesCostAByteARow) {
   FrameCodec codec;
   EXPECT_EQ(codec.encode({200, 90, std::vector<std::uint8_t>(72000, 0)}).size(), 94u);
