@@ -14,6 +14,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "blend_rows.cpp"
+#include "hwy/cache_control.h"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
 
@@ -40,7 +41,11 @@ std::size_t over_deep_row(std::uint8_t* canvas, const Deep* picture, std::size_t
   for (std::size_t i = 0; i < count; ++i, canvas += 4, picture += 4) {
     if (picture[3] == 0) continue;
     if (canvas[3] != 255) return i;
-    mix_linear(canvas, picture, picture[3]);
+    if (picture[3] == 65535) {
+      for (int c = 0; c < 3; ++c) canvas[c] = kEncoded[picture[c]];
+    } else {
+      mix_linear(canvas, picture, picture[3]);
+    }
   }
   return count;
 }
@@ -48,6 +53,10 @@ std::size_t over_deep_row(std::uint8_t* canvas, const Deep* picture, std::size_t
 void to_deep_row(const std::uint8_t* picture, Deep* out, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i, picture += 4, out += 4) {
     const std::uint32_t alpha = picture[3];
+    if (alpha == 0) {
+      std::memset(out, 0, 4 * sizeof(Deep));
+      continue;
+    }
     const Deep* row = &kPremultipliedLinear[std::size_t{alpha} << 8];
     out[0] = row[picture[0]];
     out[1] = row[picture[1]];
@@ -62,11 +71,14 @@ std::uint8_t over_255(std::uint32_t x) {
   return static_cast<std::uint8_t>((x + 128 + ((x + 128) >> 8)) >> 8);
 }
 
-void over_encoded_row(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) {
-  for (std::size_t i = 0; i < 4 * count; ++i) {
-    const std::uint32_t rest = 255u - picture[i | 3];
-    canvas[i] = static_cast<std::uint8_t>(
-        std::min(255u, picture[i] + std::uint32_t{over_255(canvas[i] * rest)}));
+void over_encoded_rows(CanvasRows canvas, PictureRows picture, std::size_t count,
+                       std::size_t rows) {
+  for (; rows > 0; --rows, canvas.first += canvas.stride, picture.first += picture.stride) {
+    for (std::size_t i = 0; i < 4 * count; ++i) {
+      const std::uint32_t rest = 255u - picture.first[i | 3];
+      canvas.first[i] = static_cast<std::uint8_t>(
+          std::min(255u, picture.first[i] + std::uint32_t{over_255(canvas.first[i] * rest)}));
+    }
   }
 }
 
@@ -102,18 +114,22 @@ void between_deep_row(const Deep* above, const Deep* row, Between at, std::uint1
   }
 }
 
-void over_between_row(std::uint8_t* canvas, const std::uint8_t* above, const std::uint8_t* row,
-                      Between at, std::uint16_t opacity, std::size_t count) {
+void over_between_rows(CanvasRows canvas, PictureRows picture, Between at, std::uint16_t opacity,
+                       std::size_t count, std::size_t rows) {
   const auto across = [&](const std::uint8_t* p) {
     return std::uint32_t{at.left} * p[0] + (256u - at.left) * p[4];
   };
-  const auto deep = [&](std::size_t i) {
-    const std::uint32_t high = at.above == 0 ? 0 : across(above + i);
-    return faded(between(high, across(row + i), at.above), opacity);
-  };
-  for (std::size_t i = 0; i < 4 * count; ++i) {
-    const std::uint32_t rest = 65280u - deep(i | 3);
-    canvas[i] = static_cast<std::uint8_t>((deep(i) + (canvas[i] * 257u * rest >> 16) + 128) >> 8);
+  for (; rows > 0; --rows, canvas.first += canvas.stride, picture.first += picture.stride) {
+    const std::uint8_t* above = picture.first;
+    const auto deep = [&](std::size_t i) {
+      const std::uint32_t high = at.above == 0 ? 0 : across(above + i);
+      return faded(between(high, across(above + picture.stride + i), at.above), opacity);
+    };
+    for (std::size_t i = 0; i < 4 * count; ++i) {
+      const std::uint32_t rest = 65280u - deep(i | 3);
+      canvas.first[i] =
+          static_cast<std::uint8_t>((deep(i) + (canvas.first[i] * 257u * rest >> 16) + 128) >> 8);
+    }
   }
 }
 
@@ -175,21 +191,33 @@ WordMask opaque(WordVector v) {
   return hn::Eq(hn::And(v, top), top);
 }
 
+// Opaque pixels go the way of mixed ones: a matte's edges are where branches are guessed wrong, and
+// mixing costs less than that.
 template <class Access>
 HWY_INLINE void over_vector(const Access& access, std::uint8_t* canvas,
                             const std::uint8_t* picture) {
   const WordVector over = access.load(picture);
   if (hn::AllTrue(Words(), hn::Eq(over, hn::Zero(Words())))) return;
-  if (hn::AllTrue(Words(), opaque(over))) return access.store(over, canvas);
   access.store(mixed_encoded(access.load(canvas), over), canvas);
 }
 
-void over_encoded_row(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) {
+// A canvas is wider than what a cache foresees: the row after the next one is asked for by hand.
+HWY_INLINE void prefetch_row(const std::uint8_t* row, std::size_t count) {
+  constexpr std::size_t kLine = 64;
+  for (std::size_t i = 0; i < 4 * count; i += kLine) hwy::Prefetch(row + i);
+}
+
+void over_encoded_rows(CanvasRows canvas, PictureRows picture, std::size_t count,
+                       std::size_t rows) {
   const std::size_t lanes = hn::Lanes(Words());
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) over_vector(Whole{}, canvas + 4 * i, picture + 4 * i);
-  if (i == count) return;
-  over_vector(First{hn::FirstN(Words(), count - i)}, canvas + 4 * i, picture + 4 * i);
+  const WordMask tail = hn::FirstN(Words(), count % lanes);
+  for (; rows > 0; --rows, canvas.first += canvas.stride, picture.first += picture.stride) {
+    if (rows > 2) prefetch_row(canvas.first + 2 * canvas.stride, count);
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes)
+      over_vector(Whole{}, canvas.first + 4 * i, picture.first + 4 * i);
+    if (i < count) over_vector(First{tail}, canvas.first + 4 * i, picture.first + 4 * i);
+  }
 }
 
 // Opaque pixels are copied at once, then each of the mixed ones is visited. Returns the pixels
@@ -253,40 +281,30 @@ void between_deep_row(const Deep* above, const Deep* row, Between at, std::uint1
   }
 }
 
+// Even and odd bytes of one row, times 256, mixed between neighbours: at most 65280.
+template <class V>
+HWY_INLINE void across_row(const std::uint8_t* p, V left, V right, V& even, V& odd) {
+  const Pairs d;
+  const auto low = hn::Set(d, std::uint16_t{0x00FF});
+  const auto a = hn::BitCast(d, hn::LoadU(Bytes(), p));
+  const auto b = hn::BitCast(d, hn::LoadU(Bytes(), p + 4));
+  even = hn::Add(hn::Mul(hn::And(a, low), left), hn::Mul(hn::And(b, low), right));
+  odd = hn::Add(hn::Mul(hn::ShiftRight<8>(a), left), hn::Mul(hn::ShiftRight<8>(b), right));
+}
+
 // Sums of bytes times weights of 256, kept at 16 bits until canvas and picture are added: the bytes
 // come out as if they had been rounded once.
-template <class Access>
-HWY_INLINE void over_between_vector(const Access& access, std::uint8_t* canvas,
-                                    const std::uint8_t* above, const std::uint8_t* row, Between at,
-                                    std::uint16_t opacity) {
+template <class Access, class V>
+HWY_INLINE void over_halves(const Access& access, std::uint8_t* canvas, V even, V odd) {
   const Pairs d;
-  const Bytes bytes;
-  const auto a = hn::LoadU(bytes, above), b = hn::LoadU(bytes, above + 4);
-  const auto e = hn::LoadU(bytes, row), f = hn::LoadU(bytes, row + 4);
-  const auto any = hn::BitCast(Words(), hn::Or(hn::Or(a, b), hn::Or(e, f)));
-  if (hn::AllTrue(Words(), hn::Eq(any, hn::Zero(Words())))) return;
-  const auto low = hn::Set(d, std::uint16_t{0x00FF});
-  const auto left = hn::Set(d, at.left);
-  const auto right = hn::Set(d, static_cast<std::uint16_t>(256 - at.left));
-  const auto half = [&](auto take) {  // 256 times the even or the odd bytes, at most 65280
-    const auto across = [&](auto p, auto q) {
-      return hn::Add(hn::Mul(take(hn::BitCast(d, p)), left),
-                     hn::Mul(take(hn::BitCast(d, q)), right));
-    };
-    auto v = across(e, f);
-    if (at.above != 0) v = between(across(a, b), v, at.above);
-    if (opacity < 256) v = hn::MulHigh(v, hn::Set(d, static_cast<std::uint16_t>(opacity << 8)));
-    return v;
-  };
   alignas(16) static constexpr std::uint8_t kAlphas[16] = {2,  3,  2,  3,  6,  7,  6,  7,
                                                            10, 11, 10, 11, 14, 15, 14, 15};
-  const auto even = half([&](auto v) { return hn::And(v, low); });
-  const auto odd = half([&](auto v) { return hn::ShiftRight<8>(v); });
-  const auto alpha = hn::TableLookupBytes(odd, hn::BitCast(d, hn::LoadDup128(bytes, kAlphas)));
+  const auto low = hn::Set(d, std::uint16_t{0x00FF});
+  const auto alpha = hn::TableLookupBytes(odd, hn::BitCast(d, hn::LoadDup128(Bytes(), kAlphas)));
   const auto rest = hn::Sub(hn::Set(d, std::uint16_t{65280}), alpha);
   const auto under = hn::BitCast(d, access.load(canvas));
   const auto scale = hn::Set(d, std::uint16_t{257});
-  const auto mixed = [&](auto over, auto kept) {
+  const auto mixed = [&](auto over, auto kept) HWY_ATTR {
     const auto sum = hn::Add(over, hn::MulHigh(hn::Mul(kept, scale), rest));
     return hn::ShiftRight<8>(hn::Add(sum, hn::Set(d, std::uint16_t{128})));
   };
@@ -295,17 +313,50 @@ HWY_INLINE void over_between_vector(const Access& access, std::uint8_t* canvas,
   access.store(hn::BitCast(Words(), hn::Or(out_even, hn::ShiftLeft<8>(out_odd))), canvas);
 }
 
-void over_between_row(std::uint8_t* canvas, const std::uint8_t* above, const std::uint8_t* row,
-                      Between at, std::uint16_t opacity, std::size_t count) {
+// One vector wide from the top down: what a row gave across is kept for the row below it.
+template <class Access>
+HWY_INLINE void over_between_strip(const Access& access, CanvasRows canvas, PictureRows picture,
+                                   Between at, std::uint16_t opacity, std::size_t rows) {
+  const Pairs d;
+  const auto left = hn::Set(d, at.left);
+  const auto right = hn::Set(d, static_cast<std::uint16_t>(256 - at.left));
+  const auto fade = hn::Set(d, static_cast<std::uint16_t>(opacity << 8));
+  auto above_even = left, above_odd = left;
+  across_row(picture.first, left, right, above_even, above_odd);
+  for (; rows > 0; --rows, canvas.first += canvas.stride) {
+    picture.first += picture.stride;
+    auto here_even = left, here_odd = left;
+    across_row(picture.first, left, right, here_even, here_odd);
+    auto even = here_even, odd = here_odd;
+    if (at.above != 0) {
+      even = between(above_even, even, at.above);
+      odd = between(above_odd, odd, at.above);
+    }
+    above_even = here_even;
+    above_odd = here_odd;
+    const auto any = hn::BitCast(Words(), hn::Or(even, odd));
+    if (hn::AllTrue(Words(), hn::Eq(any, hn::Zero(Words())))) continue;
+    if (opacity < 256) {
+      even = hn::MulHigh(even, fade);
+      odd = hn::MulHigh(odd, fade);
+    }
+    over_halves(access, canvas.first, even, odd);
+  }
+}
+
+void over_between_rows(CanvasRows canvas, PictureRows picture, Between at, std::uint16_t opacity,
+                       std::size_t count, std::size_t rows) {
   const std::size_t lanes = hn::Lanes(Words());
-  if (at.above == 0) above = row;
+  for (std::size_t row = 0; row < rows; ++row)
+    prefetch_row(canvas.first + static_cast<std::ptrdiff_t>(row) * canvas.stride, count);
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
-    over_between_vector(Whole{}, canvas + 4 * i, above + 4 * i, row + 4 * i, at, opacity);
+    over_between_strip(Whole{}, {canvas.first + 4 * i, canvas.stride},
+                       {picture.first + 4 * i, picture.stride}, at, opacity, rows);
   }
   if (i == count) return;
-  over_between_vector(First{hn::FirstN(Words(), count - i)}, canvas + 4 * i, above + 4 * i,
-                      row + 4 * i, at, opacity);
+  over_between_strip(First{hn::FirstN(Words(), count - i)}, {canvas.first + 4 * i, canvas.stride},
+                     {picture.first + 4 * i, picture.stride}, at, opacity, rows);
 }
 
 #endif
@@ -317,15 +368,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vsprite::detail {
 
-HWY_EXPORT(over_encoded_row);
+HWY_EXPORT(over_encoded_rows);
 HWY_EXPORT(over_linear_row);
 HWY_EXPORT(over_deep_row);
 HWY_EXPORT(to_deep_row);
-HWY_EXPORT(over_between_row);
+HWY_EXPORT(over_between_rows);
 HWY_EXPORT(between_deep_row);
 
-void over_encoded(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) noexcept {
-  HWY_DYNAMIC_DISPATCH(over_encoded_row)(canvas, picture, count);
+void over_encoded(CanvasRows canvas, PictureRows picture, std::size_t count,
+                  std::size_t rows) noexcept {
+  HWY_DYNAMIC_DISPATCH(over_encoded_rows)(canvas, picture, count, rows);
 }
 
 std::size_t over_linear(std::uint8_t* canvas, const std::uint8_t* picture,
@@ -341,9 +393,9 @@ void to_deep(const std::uint8_t* picture, Deep* out, std::size_t count) noexcept
   HWY_DYNAMIC_DISPATCH(to_deep_row)(picture, out, count);
 }
 
-void over_between(std::uint8_t* canvas, const std::uint8_t* above, const std::uint8_t* row,
-                  Between at, std::uint16_t opacity, std::size_t count) noexcept {
-  HWY_DYNAMIC_DISPATCH(over_between_row)(canvas, above, row, at, opacity, count);
+void over_between(CanvasRows canvas, PictureRows picture, Between at, std::uint16_t opacity,
+                  std::size_t count, std::size_t rows) noexcept {
+  HWY_DYNAMIC_DISPATCH(over_between_rows)(canvas, picture, at, opacity, count, rows);
 }
 
 void between_deep(const Deep* above, const Deep* row, Between at, std::uint16_t opacity, Deep* out,

@@ -14,9 +14,19 @@ namespace vsprite::detail {
 /// Four 16-bit channels a pixel: linear light, premultiplied, 65535 is one.
 using Deep = std::uint16_t;
 
-/// canvas = picture + (1 - a) canvas, as the numbers stand. Clear runs are skipped, opaque ones
-/// copied.
-void over_encoded(std::uint8_t* canvas, const std::uint8_t* picture, std::size_t count) noexcept;
+/// Rows of pixels, `stride` bytes apart.
+struct CanvasRows {
+  std::uint8_t* first = nullptr;
+  std::ptrdiff_t stride = 0;
+};
+struct PictureRows {
+  const std::uint8_t* first = nullptr;
+  std::ptrdiff_t stride = 0;
+};
+
+/// canvas = picture + (1 - a) canvas, as the numbers stand, `count` pixels of each row.
+void over_encoded(CanvasRows canvas, PictureRows picture, std::size_t count,
+                  std::size_t rows) noexcept;
 
 /// The same in linear light onto pixels that are opaque. Returns the number of leading pixels done:
 /// fewer than `count` if it met a canvas pixel that is not opaque, at which it stopped.
@@ -36,8 +46,10 @@ struct Between {
 /// pixels, and a vector more that is read and not used. Then times opacity / 256 (0..256).
 void between_deep(const Deep* above, const Deep* row, Between at, std::uint16_t opacity, Deep* out,
                   std::size_t count) noexcept;
-/// The same of encoded values, and at once over the canvas.
-void over_between(std::uint8_t* canvas, const std::uint8_t* above, const std::uint8_t* row,
-                  Between at, std::uint16_t opacity, std::size_t count) noexcept;
+/// The same of encoded values, and at once over the canvas. The picture begins one row and one
+/// pixel earlier: `rows` + 1 rows of `count` + 1 pixels, and a vector more that is read and not
+/// used.
+void over_between(CanvasRows canvas, PictureRows picture, Between at, std::uint16_t opacity,
+                  std::size_t count, std::size_t rows) noexcept;
 
 }  // namespace vsprite::detail

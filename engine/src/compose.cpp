@@ -217,29 +217,37 @@ struct Column {
   std::uint16_t opacity = 256;
 };
 
-void draw_column(std::uint8_t* canvas, std::size_t stride, const ImageView& picture, int first_row,
-                 int rows, const Column& column, Blend blend) {
-  alignas(64) std::uint8_t bytes[2][kRoom];
-  alignas(64) detail::Deep deep[2][kRoom], mixed_deep[kRoom];
-  const auto count = static_cast<int>(column.count);
-  const auto take = [&](int y, int slot) {
-    take_row(picture, y, column.from, count, bytes[slot]);
-    if (blend == Blend::LinearLight) {
-      detail::to_deep(bytes[slot], deep[slot], column.count + 1);
+constexpr int kBand = 16;  // rows that are made ready at a time
+
+void draw_column_encoded(std::uint8_t* canvas, std::ptrdiff_t stride, const ImageView& picture,
+                         int first_row, int rows, const Column& column) {
+  alignas(64) std::uint8_t band[kBand + 1][kRoom];
+  for (int done = 0; done < rows; done += kBand) {
+    const int here = std::min(kBand, rows - done);
+    for (int r = 0; r <= here; ++r) {
+      take_row(picture, first_row + done + r - 1, column.from, static_cast<int>(column.count),
+               band[r]);
     }
+    detail::over_between({canvas + done * stride, stride}, {band[0], kRoom}, column.between,
+                         column.opacity, column.count, static_cast<std::size_t>(here));
+  }
+}
+
+void draw_column_linear(std::uint8_t* canvas, std::ptrdiff_t stride, const ImageView& picture,
+                        int first_row, int rows, const Column& column) {
+  alignas(64) std::uint8_t bytes[kRoom];
+  alignas(64) detail::Deep deep[2][kRoom], mixed[kRoom];
+  const auto take = [&](int y, int slot) {
+    take_row(picture, y, column.from, static_cast<int>(column.count), bytes);
+    detail::to_deep(bytes, deep[slot], column.count + 1);
   };
   if (column.between.above != 0) take(first_row - 1, 1);
   for (int r = 0; r < rows; ++r, canvas += stride) {
     const int slot = r & 1;
     take(first_row + r, slot);
-    if (blend == Blend::LinearLight) {
-      detail::between_deep(deep[1 - slot], deep[slot], column.between, column.opacity, mixed_deep,
-                           column.count);
-      put_deep(canvas, mixed_deep, column.count);
-    } else {
-      detail::over_between(canvas, bytes[1 - slot], bytes[slot], column.between, column.opacity,
-                           column.count);
-    }
+    detail::between_deep(deep[1 - slot], deep[slot], column.between, column.opacity, mixed,
+                         column.count);
+    put_deep(canvas, mixed, column.count);
   }
 }
 
@@ -254,20 +262,21 @@ void draw_unscaled(Image& canvas, const ImageView& picture, Vec2 top_left,
   const int x1 = std::min(across.first + across.count, canvas.width);
   const int y1 = std::min(down.first + down.count, canvas.height);
   if (x0 >= x1 || y0 >= y1) return;
-  const std::size_t stride = 4 * static_cast<std::size_t>(canvas.width);
+  const std::ptrdiff_t stride = 4 * std::ptrdiff_t{canvas.width};
   const auto at = [&](int x, int y) {
-    return canvas.rgba.data() + static_cast<std::size_t>(y) * stride + 4 * std::ptrdiff_t{x};
+    return canvas.rgba.data() + y * stride + 4 * std::ptrdiff_t{x};
   };
+  const bool linear = options.blend == Blend::LinearLight;
   if (across.left == 0 && down.left == 0 && opacity == 256) {
-    for (int y = y0; y < y1; ++y) {
-      const std::uint8_t* row = picture.pixel(x0 - across.first, y - down.first);
-      const auto count = static_cast<std::size_t>(x1 - x0);
-      if (options.blend == Blend::LinearLight) {
-        put_linear(at(x0, y), row, count);
-      } else {
-        detail::over_encoded(at(x0, y), row, count);
-      }
+    const auto count = static_cast<std::size_t>(x1 - x0);
+    const int left = x0 - across.first;
+    if (!linear) {
+      detail::over_encoded({at(x0, y0), stride},
+                           {picture.pixel(left, y0 - down.first), picture.stride}, count,
+                           static_cast<std::size_t>(y1 - y0));
+      return;
     }
+    for (int y = y0; y < y1; ++y) put_linear(at(x0, y), picture.pixel(left, y - down.first), count);
     return;
   }
   for (int x = x0; x < x1; x += kChunk) {
@@ -275,7 +284,8 @@ void draw_unscaled(Image& canvas, const ImageView& picture, Vec2 top_left,
                         static_cast<std::size_t>(std::min(kChunk, x1 - x)),
                         {across.left, down.left},
                         opacity};
-    draw_column(at(x, y0), stride, picture, y0 - down.first, y1 - y0, column, options.blend);
+    const auto draw = linear ? draw_column_linear : draw_column_encoded;
+    draw(at(x, y0), stride, picture, y0 - down.first, y1 - y0, column);
   }
 }
 

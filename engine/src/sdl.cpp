@@ -145,9 +145,11 @@ Result<void> Window::Impl::make() {
   SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
   Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI;
   if (config.full_screen) flags |= SDL_WINDOW_FULLSCREEN_DESKTOP;
-  if (!make_context(flags, SDL_GL_CONTEXT_PROFILE_CORE, 3)) {
+  const auto core = [&] { return make_context(flags, SDL_GL_CONTEXT_PROFILE_CORE, 3); };
+  const auto es = [&] { return make_context(flags, SDL_GL_CONTEXT_PROFILE_ES, 0); };
+  if (!(config.es ? es() : core())) {
     const std::string reason = SDL_GetError();
-    if (!make_context(flags, SDL_GL_CONTEXT_PROFILE_ES, 0)) return no_opengl(reason.c_str());
+    if (!(config.es ? core() : es())) return no_opengl(reason.c_str());
   }
   // Adaptive sync where there is one; else plain, else none (software drivers).
   const bool sync = config.vsync && !config.headless;

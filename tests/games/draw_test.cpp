@@ -281,6 +281,39 @@ TEST_F(DrawActors, AFadingActorIsDrawnFromBothPictures) {
   }
 }
 
+/// Resident memory of this process, bytes.
+std::size_t resident() {
+  std::ifstream in("/proc/self/statm");
+  std::size_t pages = 0, held = 0;
+  in >> pages >> held;
+  return held * 4096;
+}
+
+TEST_F(Draw, AThousandSizesLeaveNothingBehind) {
+  const Image picture = noise_picture(20, 20, 3);
+  std::size_t before = 0;
+  for (int i = 0; i < 1000; ++i) {
+    if (i == 200) before = resident();
+    renderer().begin_frame(16 + i * 7 % 61, 16 + i * 5 % 53);
+    renderer().draw_sprite({.image = picture, .key = {7, 1}, .position = {4, 4}});
+    renderer().end_frame(64 + i % 3, 48);
+  }
+  EXPECT_LT(resident(), before + (std::size_t{4} << 20));
+  EXPECT_EQ(renderer().stats().uploads, 0u);
+}
+
+TEST_F(DrawActors, ALostContextCostsNoPicture) {
+  const Actor actor = make_actor(*sprite_, {40, 30});
+  const std::array<ActorDraw, 1> one{entry(actor)};
+  const Shadow shadow{};
+  const Image before = shot(one, &shadow);
+  const std::uint64_t decoded = frames_->stats().misses;
+  open({});  // window, context and renderer go, and come anew
+  EXPECT_EQ(largest_difference(shot(one, &shadow), before), 0);
+  EXPECT_GT(renderer().stats().uploads, 0u);
+  EXPECT_EQ(frames_->stats().misses, decoded);
+}
+
 TEST_F(Draw, ShowsTheRightPictureAfterPagesWereEmptied) {
   open({.texture_budget = 1});
   std::vector<Image> pictures;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <random>
 
@@ -24,12 +25,16 @@ class GlTest : public ::testing::Test {
   void open(const RendererConfig& config) {
     renderer_.reset();
     window_.reset();
-    Result<Window> window = Window::open({.width = 320, .height = 240, .headless = true});
+    const bool es = std::getenv("VSPRITE_TEST_ES") != nullptr;  // the same tests on OpenGL ES 3
+    Result<Window> window = Window::open({.width = 320, .height = 240, .headless = true, .es = es});
     if (!window) GTEST_SKIP() << window.error().message;
     window_.emplace(std::move(*window));
     Result<Renderer> renderer = make_renderer(Window::gl_function, config);
     ASSERT_TRUE(renderer) << renderer.error().message;
     renderer_.emplace(std::move(*renderer));
+    if (es) {
+      ASSERT_EQ(renderer_->device().rfind("OpenGL ES", 0), 0u) << renderer_->device();
+    }
   }
   Renderer& renderer() { return *renderer_; }
 

@@ -32,6 +32,7 @@ struct WindowConfig {
   bool full_screen = false;
   bool headless = false;  ///< no display is asked for: draws into memory (SDL's offscreen driver)
   bool vsync = true;
+  bool es = false;  ///< OpenGL ES 3 is asked for first, as phones and browsers have it
 };
 
 /// Keys other than the steering ones: lower-case ASCII ('p', 'm', ' '), or one of these.
