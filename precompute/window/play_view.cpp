@@ -138,6 +138,8 @@ std::string overlay_text(Session& session, const Sprite& sprite, const FrameCach
   row("pictures",
       number("%.1f MB decoded", static_cast<double>(frames.stats().bytes) / 1e6) +
           number(", %.0f new", static_cast<double>(session.renderer().stats().uploads)));
+  row("decoded", number("%.0f ahead", static_cast<double>(frames.stats().ahead)) +
+                     number(", %.0f missed", static_cast<double>(frames.stats().misses)));
   return text;
 }
 

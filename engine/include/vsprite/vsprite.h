@@ -15,6 +15,7 @@
 #include "vsprite/owner.h"
 #include "vsprite/pack.h"
 #include "vsprite/policy.h"
+#include "vsprite/reload.h"
 #include "vsprite/replay.h"
 #include "vsprite/result.h"
 #include "vsprite/show.h"
