@@ -156,11 +156,15 @@ double rounded(double value, double steps) { return std::floor(value * steps + 0
 
 // Velocities in film time: positions of dropped duplicates lie on the line between their
 // neighbours.
-void set_velocities(const Clip& clip, double fps, double sigma, std::span<SampleRow> rows,
-                    double& squares) {
+void set_velocities(const Clip& clip, double fps, double sigma, const std::optional<Ground>& floor,
+                    std::span<SampleRow> rows, double& squares) {
   const int count = clip.back().time + 1;
   for (int axis = 0; axis < 2; ++axis) {
     const auto place = [&](std::size_t k) {
+      if (floor) {
+        const FloorPlace at = on_floor(*floor, rows[k].anchor_x, rows[k].anchor_y);
+        return axis == 0 ? at.x : at.y;
+      }
       return axis == 0 ? rows[k].anchor_x : rows[k].anchor_y;
     };
     std::vector<double> x(static_cast<std::size_t>(count));
@@ -196,15 +200,29 @@ double steady_ground(std::span<const FrameSummary> frames, const Track& track, i
   return median(lines);
 }
 
-// One scale for the film: the longest side of the largest image, margins included, fits.
-double film_scale(const Track& track, const std::vector<Clip>& clips, int max_size) {
-  int longest = 1;
+// The floor that the film shows or the settings know.
+Result<Ground> floor_of(std::span<const FrameSummary> frames, const Track& track,
+                        const std::vector<Clip>& clips, const ExtractConfig& config) {
+  std::vector<Standing> sights;
+  for (const Clip& clip : clips)
+    for (const Kept& kept : clip)
+      sights.push_back(
+          {steady_ground(frames, track, kept.frame),
+           static_cast<double>(track.blob[static_cast<std::size_t>(kept.frame)]->box.height)});
+  return find_floor(sights, config.floor, config.width);
+}
+
+// One scale for the film: the longest side of the largest image, margins included, fits. `depth`:
+// how large the subject is in a frame, 1 on the ground line.
+double film_scale(const Track& track, const std::vector<Clip>& clips, int max_size,
+                  const std::function<double(int)>& depth) {
+  double longest = 1;
   for (const Clip& clip : clips)
     for (const Kept& kept : clip) {
       const Rect& box = track.blob[static_cast<std::size_t>(kept.frame)]->box;
-      longest = std::max({longest, box.width, box.height});
+      longest = std::max(longest, std::max(box.width, box.height) / depth(kept.frame));
     }
-  return longest + 2 <= max_size ? 1.0 : static_cast<double>(max_size - 2) / longest;
+  return longest + 2 <= max_size ? 1.0 : (max_size - 2) / longest;
 }
 
 SampleRow make_row(const FrameSummary& frame, const Blob& blob, double scale) {
@@ -251,6 +269,22 @@ void add_mirrored(Extraction& result) {
 
 int Extraction::count(Fate fate) const noexcept {
   return static_cast<int>(std::count(fates.begin(), fates.end(), fate));
+}
+
+std::vector<SampleRow> rows_on_floor(const Extraction& extraction) {
+  std::vector<SampleRow> rows = extraction.rows;
+  if (!extraction.floor) return rows;
+  for (SampleRow& row : rows) {
+    const FloorPlace at = on_floor(*extraction.floor, row.anchor_x, row.anchor_y);
+    const double left = (row.anchor_x - row.left) / at.scale,
+                 top = (row.anchor_y - row.top) / at.scale;
+    row.anchor_x = rounded(at.x, 1000), row.anchor_y = rounded(at.y, 1000);
+    row.left = row.anchor_x - left, row.top = row.anchor_y - top;
+    row.width /= at.scale, row.height /= at.scale;
+    row.area = rounded(row.area / (at.scale * at.scale), 1000);
+    row.scale = extraction.scale;
+  }
+  return rows;
 }
 
 SampleRow mirrored(const SampleRow& row, int sample, int clip) {
@@ -300,13 +334,22 @@ Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
   const auto clips = split_clips(frames, *track, repeats, config, result);
   if (clips.empty()) return nothing_left(result, config);
   result.clips = static_cast<int>(clips.size());
-  const double scale = film_scale(*track, clips, config.max_size);
+  if (config.floor.is_there()) {
+    const auto floor = floor_of(frames, *track, clips, config);
+    if (!floor) return floor.error();
+    result.floor = *floor;
+  }
+  const auto depth = [&](int frame) {
+    return result.floor ? on_floor(*result.floor, 0, steady_ground(frames, *track, frame)).scale
+                        : 1.0;
+  };
+  result.scale = film_scale(*track, clips, config.max_size, depth);
   double squares = 0;
   for (std::size_t c = 0; c < clips.size(); ++c) {
     const std::size_t first = result.rows.size();
     for (const Kept& kept : clips[c]) {
       const auto f = static_cast<std::size_t>(kept.frame);
-      SampleRow row = make_row(frames[f], *track->blob[f], scale);
+      SampleRow row = make_row(frames[f], *track->blob[f], result.scale / depth(kept.frame));
       if (config.ground) row.anchor_y = rounded(steady_ground(frames, *track, kept.frame), 1000);
       row.sample = static_cast<int>(result.rows.size());
       row.clip = static_cast<int>(c);
@@ -316,7 +359,8 @@ Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
       result.labels.push_back(track->blob[f]->label);
       result.positions.push_back(kept.frame);
     }
-    set_velocities(clips[c], rate, config.sigma, std::span(result.rows).subspan(first), squares);
+    set_velocities(clips[c], rate, config.sigma, result.floor,
+                   std::span(result.rows).subspan(first), squares);
   }
   result.velocity_noise =
       rounded(std::sqrt(squares / static_cast<double>(result.rows.size())), 1000);

@@ -6,10 +6,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "film/floor.h"
 #include "film/matte.h"
 #include "film/subject.h"
 #include "vsprite/image.h"
@@ -40,9 +42,10 @@ struct ExtractConfig {
   int min_clip = 8;    ///< frames; shorter clips are dropped
   int max_repeats = 3;  ///< more duplicates in a row start a new clip
   SubjectChoice subject = {};
-  bool ground = false;  ///< anchor: true = ground line below the centroid; needs `ground`
-  bool mirror = false;  ///< mirrored samples N + i follow
-  int stride = 1;       ///< film frames from one summary to the next (a draft leaves out)
+  bool ground = false;     ///< anchor: true = ground line below the centroid; needs `ground`
+  FloorChoice floor = {};  ///< where there is one, `ground` is due
+  bool mirror = false;     ///< mirrored samples N + i follow
+  int stride = 1;          ///< film frames from one summary to the next (a draft leaves out)
   int width = 1 << 20, height = 1 << 20;  ///< of the film, px
 };
 
@@ -52,8 +55,11 @@ struct Extraction {
   std::vector<int> positions;  ///< (rows) index into the summaries
   std::vector<Fate> fates;     ///< (summaries)
   int clips = 0;
-  int cuts = 0;               ///< clips that begin with a leap of the subject or the picture
-  int missing = 0;            ///< frames that the camera left out, by the time stamps
+  int cuts = 0;      ///< clips that begin with a leap of the subject or the picture
+  int missing = 0;   ///< frames that the camera left out, by the time stamps
+  double scale = 1;  ///< image pixels per film pixel; with a floor: on its ground line
+  std::optional<Ground>
+      floor;  ///< then velocities are those on it, and rows have scales of their own
   double velocity_noise = 0;  ///< px/s, rms of the part removed by smoothing
 
   int count(Fate fate) const noexcept;
@@ -62,13 +68,17 @@ struct Extraction {
 /// Follows the subject (film/subject.h); drops duplicates and frames of no use; splits clips where
 /// the subject leaves, is touched or hidden, or where the film cuts. `fps`: of the film. `sources`:
 /// file name of each summary's film, without folders. Errors: those of follow_subject; BadContent
-/// (nothing left, with the reason and what to do).
+/// (nothing left, with the reason and what to do); those of find_floor.
 Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
                            const std::function<std::string(int)>& source,
                            const ExtractConfig& config);
 /// The same for one film.
 Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
                            const std::string& source, const ExtractConfig& config);
+
+/// The rows as they are written and used from here on: where there is a floor all of them in its
+/// places and of one scale, as if each had been filmed on the ground line.
+std::vector<SampleRow> rows_on_floor(const Extraction& extraction);
 
 /// The row of the mirror image of `row`: left and right exchanged about its anchor.
 SampleRow mirrored(const SampleRow& row, int sample, int clip);

@@ -19,6 +19,7 @@ target_sources(vsprite_precompute PRIVATE
   film/coverage.cpp
   film/subject.cpp
   film/extract.cpp
+  film/floor.cpp
   film/match.cpp
   film/contact.cpp
   film/checkup.cpp

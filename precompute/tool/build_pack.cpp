@@ -10,6 +10,7 @@
 #include "control/actions.h"
 #include "tool/stages.h"
 #include "tool/views_file.h"
+#include "vsprite/ground.h"
 #include "vsprite/pack.h"
 
 namespace vsprite {
@@ -166,6 +167,17 @@ Result<void> add_actions(StageRun& run, const TransitionFile& file, SpriteData& 
   return {};
 }
 
+// The floor on which the film was taken, in the sprite's pixels.
+Result<void> add_floor(const StageRun& run) {
+  const Json* made = run.project.record("segment");
+  const Json result = made == nullptr ? Json() : made->value("result", Json::object());
+  if (!result.is_object() || !result.contains("floor")) return {};
+  const Json& floor = result["floor"];
+  const auto number = [&floor](const char* key) { return floor.value(key, 0.0f); };
+  const Ground ground{number("horizon"), number("ground_line"), number("center"), number("focal")};
+  return save_ground(run.pack, scaled(ground, number("scale")));
+}
+
 }  // namespace
 
 Result<SpriteData> make_sprite_data(const FilmFacts& film, const std::vector<SampleRow>& rows,
@@ -264,6 +276,7 @@ Result<Json> write_pack(StageRun& run) {
     return pictures.picture(static_cast<int>(sample));
   };
   if (auto saved = save_pack(run.pack, *data, source); !saved) return saved.error();
+  if (auto added = add_floor(run); !added) return added.error();
   if (auto added = add_puppets(run.project.folder(), run.pack); !added) return added.error();
 
   std::error_code error;

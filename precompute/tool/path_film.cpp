@@ -66,9 +66,10 @@ bool has_ending(const std::string& path, const char* ending) {
 }
 
 /// Hands out the ground of every frame, premultiplied.
-class Ground {
+class BackdropFrames {
  public:
-  Ground(const std::string& path, const PathPicture& picture, const Backdrop& backdrop, double fps)
+  BackdropFrames(const std::string& path, const PathPicture& picture, const Backdrop& backdrop,
+                 double fps)
       : backdrop_(backdrop), fps_(fps) {
     if (!backdrop.film.empty()) return;
     still_ = backdrop.still;
@@ -96,7 +97,8 @@ bool is_full(const Image& image) {
 }
 
 void draw_tick(Image& canvas, const std::vector<FilmRole>& roles,
-               std::vector<std::unique_ptr<FrameCache>>& caches, std::size_t tick, Vec2 origin) {
+               std::vector<std::unique_ptr<FrameCache>>& caches, std::size_t tick,
+               const PathPicture& picture) {
   std::vector<std::size_t> order;
   for (std::size_t r = 0; r < roles.size(); ++r)
     if (tick < roles[r].clip->ticks.size()) order.push_back(r);
@@ -105,9 +107,10 @@ void draw_tick(Image& canvas, const std::vector<FilmRole>& roles,
   });
   for (const std::size_t r : order) {
     const ClipTick& t = roles[r].clip->ticks[tick];
-    const Vec2 at = to_pixels(t.position);
+    const Vec2 at = picture.place(t.position);
     draw_sample(canvas, caches[r]->frame(t.sample), roles[r].sprite->samples()[t.sample],
-                {at.x - origin.x, at.y - origin.y});
+                {at.x - picture.origin.x, at.y - picture.origin.y},
+                {.scale = picture.scale(t.position)});
   }
 }
 
@@ -148,7 +151,7 @@ Result<void> write_path_film(const std::string& path, const std::vector<FilmRole
   FrameSink sink;
   const double fps = roles[0].sprite->fps();
   if (auto opened = sink.open(path, picture, fps); !opened) return opened;
-  const Ground ground(path, picture, backdrop, fps);
+  const BackdropFrames ground(path, picture, backdrop, fps);
   std::vector<std::unique_ptr<FrameCache>> caches;
   std::size_t count = 0;
   for (const FilmRole& role : roles) {
@@ -160,7 +163,7 @@ Result<void> write_path_film(const std::string& path, const std::vector<FilmRole
   for (std::size_t tick = 0; tick < count; ++tick) {
     if (stopped()) return interrupted;
     Image canvas = ground.at(tick);
-    draw_tick(canvas, roles, caches, tick, picture.origin);
+    draw_tick(canvas, roles, caches, tick, picture);
     if (!is_full(canvas)) unpremultiply(canvas);
     if (auto added = sink.add(canvas); !added) return stopped() ? interrupted : added;
     if (progress) progress(static_cast<double>(tick + 1) / static_cast<double>(count));

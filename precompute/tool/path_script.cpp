@@ -62,6 +62,13 @@ Result<std::vector<Vec2>> parse_path(const std::string& text, const std::string&
   return points;
 }
 
+Vec2 PathPicture::place(Position at) const {
+  return floor ? to_screen(*floor, to_pixels(at)) : to_pixels(at);
+}
+float PathPicture::scale(Position at) const {
+  return floor ? scale_at(*floor, to_pixels(at)) : 1.0f;
+}
+
 PathPicture picture_around(const std::vector<Vec2>& points, float body_length) {
   Vec2 low = points[0], high = points[0];
   for (const Vec2& p : points) {
@@ -143,10 +150,16 @@ std::string clip_csv(const Clip& clip) {
 
 Json clip_json(const Sprite& sprite, const Clip& clip, const PathPicture& picture) {
   Json ticks = Json::array();
-  for (const ClipTick& t : clip.ticks)
+  for (const ClipTick& t : clip.ticks) {
     ticks.push_back({{"sample", t.sample},
                      {"x", static_cast<double>(t.position.x) / kFixedOne},
                      {"y", static_cast<double>(t.position.y) / kFixedOne}});
+    if (!picture.floor) continue;
+    const Vec2 at = picture.place(t.position);
+    ticks.back()["x"] = at.x;
+    ticks.back()["y"] = at.y;
+    ticks.back()["scale"] = picture.scale(t.position);
+  }
   return {{"fps", sprite.fps()},
           {"size", {picture.width, picture.height}},
           {"origin", {picture.origin.x, picture.origin.y}},

@@ -12,6 +12,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -38,6 +39,10 @@ void report(const StageRun& run, double fraction) {
   if (run.listener.progress) run.listener.progress(std::min(fraction, 1.0));
 }
 
+bool stands_on_ground(const Settings& settings) {
+  return settings.anchor == "ground" || !settings.horizon.empty();
+}
+
 int stride_of(const Settings& settings) { return settings.draft ? kDraftStride : 1; }
 
 /// One frame on its way through the pipeline.
@@ -56,7 +61,7 @@ class KeyingPass {
   KeyingPass(StageRun& run, FilmReader& reader, const ScreenModel& screen, const KeyedStore& store)
       : run_(run),
         stride_(stride_of(run.settings)),
-        ground_(run.settings.anchor == "ground"),
+        ground_(stands_on_ground(run.settings)),
         reader_(reader),
         keyers_([&screen] { return Keyer(screen, MatteConfig{}); }),
         store_(store) {}
@@ -387,7 +392,8 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
                              .sigma = run.settings.smooth,
                              .min_clip = run.settings.min_clip,
                              .subject = subject_of(run.settings.subject),
-                             .ground = run.settings.anchor == "ground",
+                             .ground = stands_on_ground(run.settings),
+                             .floor = floor_of(run.settings),
                              .mirror = run.settings.mirror,
                              .stride = stride_of(run.settings),
                              .width = info.width,
@@ -400,7 +406,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (!extraction)
     return Error{extraction.error().code, run.film + ": " + extraction.error().message};
 
-  const std::string table = format_samples(extraction->rows);
+  const std::string table = format_samples(rows_on_floor(*extraction));
   const auto resumed = store->resume_cutting(hex64(hash_bytes(table)),
                                              [&run] { return clear_sprites(run.project); });
   if (!resumed) return resumed.error();
@@ -413,6 +419,16 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   Json result = segment_result(name, info, *screen, *extraction, stride_of(run.settings));
   result["surplus"] = reader->surplus();
   result["dropped"] = *dropped;
+  if (const auto& floor = extraction->floor) {
+    result["floor"] = {{"horizon", floor->horizon},
+                       {"ground_line", floor->line},
+                       {"center", floor->center},
+                       {"focal", floor->focal},
+                       {"scale", extraction->scale}};
+    if (run.listener.note)
+      run.listener.note("floor: horizon at y = " + std::to_string(std::lround(floor->horizon)) +
+                        ", ground line at y = " + std::to_string(std::lround(floor->line)));
+  }
   return result;
 }
 

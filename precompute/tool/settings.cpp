@@ -171,6 +171,26 @@ void add_stage_options(Row& t) {
   t.text("anchor", "POINT", &Settings::anchor,
          "what stands on the spot: the body's centre, or the ground below it", kSegment,
          "centroid|ground");
+  t.text("horizon", "Y|fit", &Settings::horizon,
+         "it walks on a floor whose horizon lies at y, film px (path: of the picture), or is found "
+         "by its size near and far: near and far become one size",
+         " segment build play path ");
+  t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
+    double y = 0;
+    const auto [end, error] = std::from_chars(v.data(), v.data() + v.size(), y);
+    const bool counts =
+        error == std::errc{} && end == v.data() + v.size() && y >= -100000 && y <= 100000;
+    if (!v.empty() && v != "fit" && !counts)
+      return bad("horizon", v, "fit or a number from -100000 to 100000");
+    s.horizon = v;
+    return {};
+  };
+  t.real("ground-line", "Y", &Settings::ground_line, 0, 100000, false,
+         "with --horizon: where its size counts, px; 0 = the feet nearest to the camera",
+         " segment build play path ");
+  t.real("focal", "PX", &Settings::focal, 0, 1000000, false,
+         "with --horizon: focal length of the camera, px; 0 = 0.8 widths of the picture",
+         " segment build play path ");
   t.flag("mirror", &Settings::mirror, "mirrored samples too: a film to the right also goes left",
          kSegment);
   t.whole("preview", "N", &Settings::preview, 0, 200,
@@ -344,6 +364,9 @@ void add_path_options(Row& t) {
   t.text("search", "HOW", &Settings::search,
          "scene: replace looks ahead; beam (of --beam) does not: for comparison, one sprite",
          " path ", "replace|beam");
+  t.text("plane", "PLANE", &Settings::plane,
+         "pack with a floor: the path's points lie on the screen or on the ground; none = flat",
+         " path ", "screen|ground|none");
   t.text("clip", "NAME", &Settings::clip,
          "with -o OTHER.vsp: what the run is called in the pack; default: the script's name",
          " path ");
@@ -431,6 +454,19 @@ FilmSource source_of(const Settings& settings, const std::string& film) {
   source.matte = settings.matte;
   source.fps = settings.fps;
   return source;
+}
+
+FloorChoice floor_of(const Settings& settings) {
+  FloorChoice choice;
+  choice.fitted = settings.horizon == "fit";
+  double y = 0;
+  const std::string& text = settings.horizon;
+  if (!text.empty() && !choice.fitted &&
+      std::from_chars(text.data(), text.data() + text.size(), y).ec == std::errc{})
+    choice.horizon = y;
+  choice.line = settings.ground_line;
+  choice.focal = settings.focal;
+  return choice;
 }
 
 Result<std::array<int, 2>> parse_size(const std::string& text) {

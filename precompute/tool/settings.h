@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "film/floor.h"
 #include "film/source.h"
 #include "vsprite/result.h"
 
@@ -36,6 +37,9 @@ struct Settings {
   bool draft = false;
   std::string subject = "only";
   std::string anchor = "centroid";
+  std::string horizon;     ///< empty: no floor
+  double ground_line = 0;  ///< 0: the nearest feet
+  double focal = 0;        ///< 0: 0.8 widths
   bool mirror = false;
   double smooth = 1.2;
   int min_clip = 8;
@@ -102,6 +106,7 @@ struct Settings {
   std::uint64_t proposals = 0;  ///< 0: as many as the budget allows
   std::string resume;
   std::string clip;
+  std::string plane = "screen";
   std::string search = "replace";
   bool window = false;
 
@@ -146,6 +151,9 @@ Result<std::array<int, 2>> parse_size(const std::string& text);
 
 /// `film` with what the settings say about it.
 FilmSource source_of(const Settings& settings, const std::string& film);
+
+/// What the settings know of the floor.
+FloorChoice floor_of(const Settings& settings);
 
 /// The candidate with the fewest edits, or empty if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);

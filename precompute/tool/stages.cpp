@@ -377,11 +377,14 @@ Result<StageOutcome> run_stage(StageRun& run, int index) {
 }  // namespace
 
 Json segment_settings(const Settings& s) {
-  return {
+  Json out = {
       {"key", s.key},       {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
       {"draft", s.draft},   {"subject", s.subject},
       {"anchor", s.anchor}, {"mirror", s.mirror},
       {"smooth", s.smooth}, {"min-clip", s.min_clip}};
+  if (!s.horizon.empty())
+    out.update({{"horizon", s.horizon}, {"ground-line", s.ground_line}, {"focal", s.focal}});
+  return out;
 }
 
 TransitionConfig transition_config(const Settings& settings) {

@@ -56,6 +56,13 @@ std::optional<PathAction> action_of(int key) {
   }
 }
 
+/// A path of the picture as it runs on the floor, where there is one.
+std::vector<Vec2> on_floor(std::vector<Vec2> points, const PathPicture& picture) {
+  if (picture.floor)
+    for (Vec2& p : points) p = to_ground(*picture.floor, p);
+  return points;
+}
+
 class Drawing {
  public:
   Drawing(const Sprite& sprite, PathEdit& edit, const PathWindowOptions& options)
@@ -150,7 +157,7 @@ void Drawing::follow_search() {
     asked_ = edit_.points();
     pending_ = asked_.size() >= 2;
     if (pending_)
-      search_.ask(asked_);
+      search_.ask(on_floor(asked_, options_.picture));
     else
       look_.found.reset();
   }

@@ -152,8 +152,8 @@ void PathView::draw_path(Renderer& r, const PathEdit& edit, const PathLook& look
     for (std::size_t t = 1; t < look.found->clip.ticks.size(); ++t) {
       const auto& ticks = look.found->clip.ticks;
       const bool is_past = static_cast<double>(t) <= look.tick;
-      r.draw_shape(line(to_window(to_pixels(ticks[t - 1].position)),
-                        to_window(to_pixels(ticks[t].position)), 2 * ui,
+      r.draw_shape(line(to_window(options_.picture.place(ticks[t - 1].position)),
+                        to_window(options_.picture.place(ticks[t].position)), 2 * ui,
                         srgb(0xd9622b, is_past ? 1.0f : 0.35f)));
     }
   for (std::size_t k = 0; k < points.size(); ++k) {
@@ -173,9 +173,9 @@ void PathView::draw_sprite(Renderer& r, const PathLook& look) {
   SpriteDraw draw;
   draw.image = frames_.frame(t.sample);
   draw.key = {kSpriteKey, t.sample};
-  draw.position = to_window(to_pixels(t.position));
+  draw.position = to_window(options_.picture.place(t.position));
   draw.anchor = sprite_.samples()[t.sample].anchor;
-  draw.scale = scale_;
+  draw.scale = scale_ * options_.picture.scale(t.position);
   r.draw_sprite(draw);
 }
 

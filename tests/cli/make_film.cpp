@@ -11,6 +11,8 @@
 //   idle, walk, run, jump   as a generator makes them: a figure on the spot that faces right, the
 //           screen painted in a green that changes over time, shows through between arm and body,
 //           and tints the figure
+//   floor   the walking one on a floor seen in perspective: horizon at y = 30, a circle of radius
+//           70 about a place 80 behind the line y = 110, the camera's focal length 160 px
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -66,7 +68,11 @@ double distance_to(const Limb& limb, double x, double y) {
 
 /// The figure at `seconds` of its action, hip at the origin, about 60 px high.
 std::vector<Limb> figure(const std::string& kind, double seconds) {
-  const double pace = kind == "walk" ? 1 : kind == "run" ? 1.5 : kind == "idle" ? 0.5 : 0;
+  const double pace = kind == "walk"    ? 1
+                      : kind == "run"   ? 1.5
+                      : kind == "idle"  ? 0.5
+                      : kind == "floor" ? 1.0
+                                        : 0;
   const double stride = kind == "walk" ? 0.45 : kind == "run" ? 0.8 : 0.06;
   const double phase = kTurn * pace * seconds;
   const double air = kind == "jump" ? 14 * std::sin(kTurn / 2 * std::fmod(seconds, 1.0)) : 0;
@@ -86,14 +92,29 @@ std::vector<Limb> figure(const std::string& kind, double seconds) {
   return limbs;
 }
 
+/// Where the figure's hip is drawn, and how large.
+struct Standpoint {
+  double x = 80, y = 78, scale = 1;
+};
+
+Standpoint on_floor(int frame) {
+  constexpr double kHorizon = 30, kLine = 110, kFocal = 160, kRadius = 70, kDepth = 80, kLeg = 25.8;
+  const double phase = kTurn * (frame % 150) / 150;
+  const double s = kFocal / (kFocal + kDepth - kRadius * std::sin(phase));
+  return {80 + s * kRadius * std::cos(phase), kHorizon + (kLine - kHorizon) * s - kLeg * s, s};
+}
+
 bool is_figure(const std::string& kind) {
-  return kind == "idle" || kind == "walk" || kind == "run" || kind == "jump";
+  return kind == "idle" || kind == "walk" || kind == "run" || kind == "jump" || kind == "floor";
 }
 
 void draw_figure(const std::string& kind, int frame, double scale, double exposure, double rate,
                  std::uint32_t& noise, std::vector<std::uint8_t>& rgb) {
   const double seconds = frame / rate;
   const std::vector<Limb> limbs = figure(kind, seconds);
+  Standpoint at_hip;
+  at_hip.scale = scale;
+  if (kind == "floor") at_hip = on_floor(frame);
   const double drift = 6 * std::sin(0.8 * seconds + scale);
   const double screen[3] = {46 + drift, 176 - drift, 70 + 2 * drift}, coat[3] = {196, 92, 84};
   std::size_t at = 0;
@@ -101,9 +122,9 @@ void draw_figure(const std::string& kind, int frame, double scale, double exposu
     for (int x = 0; x < kWidth; ++x) {
       double nearest = 1e9;
       for (const Limb& limb : limbs)
-        nearest =
-            std::min(nearest, distance_to(limb, (x + 0.5 - 80) / scale, (y + 0.5 - 78) / scale));
-      const double alpha = std::clamp(0.5 - nearest * scale / 1.5, 0.0, 1.0);
+        nearest = std::min(nearest, distance_to(limb, (x + 0.5 - at_hip.x) / at_hip.scale,
+                                                (y + 0.5 - at_hip.y) / at_hip.scale));
+      const double alpha = std::clamp(0.5 - nearest * at_hip.scale / 1.5, 0.0, 1.0);
       for (int c = 0; c < 3; ++c) {
         noise = noise * 1664525u + 1013904223u;
         const double grain = static_cast<double>(noise >> 24) / 128 - 1;

@@ -10,6 +10,7 @@
 #include "vsprite/compose.h"
 #include "vsprite/events.h"
 #include "vsprite/geometry.h"
+#include "vsprite/ground.h"
 #include "vsprite/image.h"
 #include "vsprite/input.h"
 #include "vsprite/owner.h"

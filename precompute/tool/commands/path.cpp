@@ -50,10 +50,24 @@ Result<int> follow_path(const Settings& settings, const std::string& text, Conso
   if (!points) return points.error();
   auto path = PathCost::make(*sprite, *points, weights_of(settings, *sprite));
   if (!path) return Error{path.error().code, settings.script + ": " + path.error().message};
-  const auto stage = make_stage(settings, *points, sprite->data().body_length);
+  const auto own = floor_of_pack(settings);
+  if (!own) return own.error();
+  // A picture whose size is not given lies around the path, as it is seen on the pack's own floor.
+  const bool on_ground = settings.plane == "ground";
+  std::vector<Vec2> shown = *own && on_ground ? mapped(*points, **own, to_screen) : *points;
+  auto stage = make_stage(settings, shown, sprite->data().body_length);
   if (!stage) return stage.error();
+  const auto floor = floor_of_picture(settings, *own, *stage);
+  if (!floor) return floor.error();
+  if (*floor && on_ground) shown = mapped(*points, **floor, to_screen);
+  if (*floor && !on_ground) {
+    path =
+        PathCost::make(*sprite, mapped(*points, **floor, to_ground), weights_of(settings, *sprite));
+    if (!path) return Error{path.error().code, settings.script + ": " + path.error().message};
+  }
+  stage->picture.floor = *floor;
   if (stage->is_given)
-    if (auto inside = check_inside(*points, stage->picture, settings.script); !inside)
+    if (auto inside = check_inside(shown, stage->picture, settings.script); !inside)
       return inside.error();
 
   const StageListener listener = console.listener();
@@ -106,6 +120,33 @@ PathWeights weights_of(const Settings& settings, const Sprite& sprite) {
   weights.v0 = usual_v0(speeds);
   weights.least_speed = weights.v0 / 4;
   return weights;
+}
+
+Result<std::optional<Ground>> floor_of_pack(const Settings& settings) {
+  if (settings.plane == "none") return std::optional<Ground>();
+  return load_ground(settings.film);
+}
+
+Result<std::optional<Ground>> floor_of_picture(const Settings& settings,
+                                               const std::optional<Ground>& own,
+                                               const Stage& stage) {
+  const FloorChoice choice = floor_of(settings);
+  if (settings.plane == "none" || !choice.is_there()) return own;
+  if (choice.fitted || !(choice.line > *choice.horizon) || !stage.is_given)
+    return Error{ErrorCode::BadSetting,
+                 "--horizon " + settings.horizon +
+                     ": beside a --backdrop or --size, --horizon Y and --ground-line Y below it "
+                     "are due"};
+  const auto width = static_cast<float>(stage.picture.width);
+  return std::optional<Ground>(
+      Ground{static_cast<float>(*choice.horizon), static_cast<float>(choice.line), width / 2,
+             choice.focal > 0 ? static_cast<float>(choice.focal) : 0.8f * width});
+}
+
+std::vector<Vec2> mapped(std::vector<Vec2> points, const Ground& floor,
+                         Vec2 (*map)(const Ground&, Vec2) noexcept) {
+  for (Vec2& p : points) p = map(floor, p);
+  return points;
 }
 
 Result<Stage> make_stage(const Settings& settings, const std::vector<Vec2>& points,

@@ -31,6 +31,17 @@ struct Stage {
 Result<Stage> make_stage(const Settings& settings, const std::vector<Vec2>& points,
                          float body_length);
 
+/// The floor on which the pack's film was taken; none with --plane none. Errors: those of
+/// load_ground.
+Result<std::optional<Ground>> floor_of_pack(const Settings& settings);
+/// The floor of the picture: that of --horizon, else the pack's. Errors: BadSetting.
+Result<std::optional<Ground>> floor_of_picture(const Settings& settings,
+                                               const std::optional<Ground>& own,
+                                               const Stage& stage);
+/// Each point by to_ground or to_screen.
+std::vector<Vec2> mapped(std::vector<Vec2> points, const Ground& floor,
+                         Vec2 (*map)(const Ground&, Vec2) noexcept);
+
 /// The film or pictures of `settings.output`, where it asks for one.
 Result<void> write_film(const Settings& settings, const std::vector<FilmRole>& roles,
                         const Stage& stage, Console& console);

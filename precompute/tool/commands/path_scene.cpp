@@ -146,8 +146,16 @@ Result<int> run_scene(const Settings& settings, const std::string& text, Console
   Settings asked = settings;
   if (asked.size.empty() && script->width > 0)
     asked.size = std::to_string(script->width) + "x" + std::to_string(script->height);
-  const auto stage = make_stage(asked, places_of(*script), packs->of_part[0]->data().body_length);
+  // On a floor a scene's places are those on it.
+  const auto own = floor_of_pack(settings);
+  if (!own) return own.error();
+  std::vector<Vec2> places = places_of(*script);
+  if (*own) places = mapped(std::move(places), **own, to_screen);
+  auto stage = make_stage(asked, places, packs->of_part[0]->data().body_length);
   if (!stage) return stage.error();
+  const auto floor = floor_of_picture(settings, *own, *stage);
+  if (!floor) return floor.error();
+  stage->picture.floor = *floor;
   std::vector<std::vector<std::uint32_t>> start;
   if (!settings.resume.empty()) {
     const auto places = read_file(settings.resume);

@@ -48,8 +48,15 @@ Result<int> draw_path(const Settings& settings, Console& console) {
   Settings asked = settings;
   if (drawn->points.empty() && asked.size.empty()) asked.size = "960x540";
   const float body = sprite->data().body_length;
-  const auto stage = make_stage(asked, drawn->points, 2 * body);
+  auto stage = make_stage(asked, drawn->points, 2 * body);
   if (!stage) return stage.error();
+  if (settings.plane == "ground")
+    return Error{ErrorCode::BadSetting, "--window --plane ground: a window draws on the screen"};
+  const auto own = floor_of_pack(settings);
+  if (!own) return own.error();
+  const auto floor = floor_of_picture(settings, *own, *stage);
+  if (!floor) return floor.error();
+  stage->picture.floor = *floor;
   PathWindowOptions options;
   options.script = script;
   options.head = drawn->head;
