@@ -3,6 +3,7 @@
 //
 // path: a sprite along a drawn path, searched, measured, and filmed.
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
 
@@ -61,6 +62,13 @@ Result<int> follow_path(const Settings& settings, const std::string& text, Conso
   if (!floor) return floor.error();
   if (*floor && on_ground) shown = mapped(*points, **floor, to_screen);
   if (*floor && !on_ground) {
+    for (const Vec2& p : *points)
+      if (p.y <= (*floor)->horizon)
+        return Error{ErrorCode::BadContent,
+                     settings.script + ": a point at y = " + std::to_string(std::lround(p.y)) +
+                         " lies above the horizon at " +
+                         std::to_string(std::lround((*floor)->horizon)) +
+                         ": points on the floor below it are due"};
     path =
         PathCost::make(*sprite, mapped(*points, **floor, to_ground), weights_of(settings, *sprite));
     if (!path) return Error{path.error().code, settings.script + ": " + path.error().message};

@@ -149,9 +149,9 @@ Result<int> run_scene(const Settings& settings, const std::string& text, Console
   // On a floor a scene's places are those on it.
   const auto own = floor_of_pack(settings);
   if (!own) return own.error();
-  std::vector<Vec2> places = places_of(*script);
-  if (*own) places = mapped(std::move(places), **own, to_screen);
-  auto stage = make_stage(asked, places, packs->of_part[0]->data().body_length);
+  std::vector<Vec2> spots = places_of(*script);
+  if (*own) spots = mapped(std::move(spots), **own, to_screen);
+  auto stage = make_stage(asked, spots, packs->of_part[0]->data().body_length);
   if (!stage) return stage.error();
   const auto floor = floor_of_picture(settings, *own, *stage);
   if (!floor) return floor.error();
