@@ -489,10 +489,11 @@ SceneResult scene_beam(const Scene& scene, int width) {
       ticks[0].push_back({wish(0, false, i, start) + wish(0, true, i, start), start, i, 0});
   }
   std::vector<double> by_sample(sprite.samples().size());
+  std::vector<Step> now;  // some 75 times what is kept of it
   for (std::uint32_t t = 1; t < scene.ticks; ++t) {
     for (std::uint32_t i = 0; i < by_sample.size(); ++i) by_sample[i] = wish(t, false, i, {});
     const std::vector<Step>& before = ticks.back();
-    std::vector<Step> now;
+    now.clear();
     for (std::uint32_t p = 0; p < before.size(); ++p) {
       const Sample& s = sprite.samples()[before[p].sample];
       const Position place{before[p].place.x + s.step_x, before[p].place.y + s.step_y};
@@ -507,7 +508,7 @@ SceneResult scene_beam(const Scene& scene, int width) {
       std::nth_element(now.begin(), now.begin() + width, now.end(), less);
       now.resize(static_cast<std::size_t>(width));
     }
-    ticks.push_back(std::move(now));
+    ticks.emplace_back(now.begin(), now.end());
   }
   std::uint32_t at = 0;
   for (std::uint32_t k = 0; k < ticks.back().size(); ++k)
