@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "tool/scene_script.h"
 
-#define TOML_HEADER_ONLY 1
-#define TOML_EXCEPTIONS 0
-#define TOML_ENABLE_FORMATTERS 0
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,6 +9,7 @@
 
 #include "similarity/features.h"
 #include "tool/report.h"
+#include "tool/toml_table.h"
 
 namespace vsprite {
 namespace {
@@ -29,128 +25,34 @@ constexpr KindName kKinds[] = {{"location", Kind::Location}, {"path", Kind::Path
                                {"pose", Kind::Pose},         {"region", Kind::Region},
                                {"clear", Kind::KeepClear},   {"meet", Kind::Meet}};
 
-std::string place(const std::string& file, const toml::source_region& at) {
-  return file + ":" + std::to_string(at.begin.line) + ": ";
-}
-
-/// Takes values out of a table; the first complaint is kept, and keys that nobody asked for are
-/// one.
-class Taker {
- public:
-  Taker(const toml::table& table, const std::string& file, std::optional<Error>& error)
-      : table_(table), file_(file), error_(error) {}
-
-  double number(const char* key, std::optional<double> fallback, double low, double high) {
-    const toml::node* node = find(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or(0);
-    const auto value = node->value<double>();
-    if (!value || !(*value >= low && *value <= high)) {
-      complain(node->source(), key,
-               "a number from " + fixed_text(low, 0) + " to " + fixed_text(high, 0) + " is due");
-      return 0;
-    }
-    return *value;
-  }
-  std::string word(const char* key, std::optional<std::string> fallback) {
-    const toml::node* node = find(key, fallback.has_value());
-    if (node == nullptr) return fallback.value_or("");
-    const auto value = node->value<std::string>();
-    if (!value || !node->is_string()) complain(node->source(), key, "a text in quotes is due");
-    return value.value_or("");
-  }
-  Vec2 point(const char* key) {
-    const toml::node* node = find(key, false);
-    return node == nullptr ? Vec2{} : to_point(*node, key);
-  }
-  std::vector<Vec2> points(const char* key) {
-    std::vector<Vec2> out;
-    const toml::node* node = find(key, false);
-    if (node == nullptr) return out;
-    if (!node->is_array()) complain(node->source(), key, "an array of [x, y] is due");
-    if (const toml::array* list = node->as_array())
-      for (const toml::node& each : *list) out.push_back(to_point(each, key));
-    return out;
-  }
-  /// The tables of an array of tables; none if there is no such key.
-  std::vector<const toml::table*> tables(const char* key) {
-    std::vector<const toml::table*> out;
-    const toml::node* node = find(key, true);
-    if (node == nullptr) return out;
-    if (const toml::array* list = node->as_array())
-      for (const toml::node& each : *list)
-        if (each.is_table()) out.push_back(each.as_table());
-    if (out.empty()) complain(node->source(), key, "tables [[" + std::string(key) + "]] are due");
-    return out;
-  }
-  void complain(const toml::source_region& at, const std::string& key, const std::string& what) {
-    if (!error_) error_ = Error{ErrorCode::BadContent, place(file_, at) + key + ": " + what};
-  }
-  /// Complains about the keys that were not taken.
-  void done() {
-    for (const auto& [key, node] : table_) {
-      const std::string name(key.str());
-      if (taken_.count(name)) continue;
-      const std::string near =
-          nearest_name(name, std::vector<std::string>(taken_.begin(), taken_.end()));
-      complain(key.source(), name,
-               "not known here" + (near.empty() ? "" : "; is `" + near + "` meant?"));
-    }
-  }
-
- private:
-  const toml::node* find(const char* key, bool may_be_absent) {
-    taken_.insert(key);
-    const toml::node* node = table_.get(key);
-    if (node == nullptr && !may_be_absent)
-      complain(table_.source(), key, "it is missing here and is due");
-    return node;
-  }
-  Vec2 to_point(const toml::node& node, const char* key) {
-    const toml::array* pair = node.as_array();
-    if (pair != nullptr && pair->size() == 2) {
-      const auto x = pair->get(0)->value<double>(), y = pair->get(1)->value<double>();
-      if (x && y && std::fabs(*x) <= 30000 && std::fabs(*y) <= 30000)
-        return {static_cast<float>(*x), static_cast<float>(*y)};
-    }
-    complain(node.source(), key, "[x, y] in px, each from -30000 to 30000, is due");
-    return {};
-  }
-
-  const toml::table& table_;
-  const std::string& file_;
-  std::optional<Error>& error_;
-  std::set<std::string> taken_;
-};
-
 std::string kind_list() {
   std::string out;
   for (const KindName& k : kKinds) out += (out.empty() ? "" : ", ") + std::string(k.name);
   return out;
 }
 
-SceneScript::Term take_term(Taker& from, const toml::table& table) {
+SceneScript::Term take_term(TomlTable& from) {
   SceneScript::Term out;
   SceneTerm& t = out.term;
   out.kind = from.word("kind", {});
   const auto* known = std::find_if(std::begin(kKinds), std::end(kKinds),
                                    [&](const KindName& k) { return out.kind == k.name; });
   if (known == std::end(kKinds)) {
-    from.complain(table.source(), "kind", "`" + out.kind + "`: one of " + kind_list() + " is due");
+    from.complain("kind", "`" + out.kind + "`: one of " + kind_list() + " is due");
     return out;
   }
   t.kind = known->kind;
   t.weight = from.number("weight", 1.0, 0, 1e6);
   out.from = from.number("from", 0.0, 0, 3600);
   out.to = from.number("to", 3600.0, 0, 3600);
-  if (out.to <= out.from)
-    from.complain(table.source(), "to", "it ends before it begins: `to` after `from` is due");
+  if (out.to <= out.from) from.complain("to", "it ends before it begins: `to` after `from` is due");
   switch (t.kind) {
     case Kind::Location:
       t.at = from.point("at");
       t.radius = from.number("radius", 0.0, 0, 30000);
       break;
     case Kind::Path:
-      t.points = from.points("points");
+      t.points = from.points("points", false, "point");
       break;
     case Kind::Heading:
       t.angle = from.number("angle_deg", {}, -360, 360) * kPi / 180;
@@ -167,7 +69,7 @@ SceneScript::Term take_term(Taker& from, const toml::table& table) {
       t.low = from.point("low");
       t.high = from.point("high");
       if (t.low.x > t.high.x || t.low.y > t.high.y)
-        from.complain(table.source(), "high", "low [left, top] and high [right, bottom] are due");
+        from.complain("high", "low [left, top] and high [right, bottom] are due");
       break;
     case Kind::KeepClear:
     case Kind::Meet:
@@ -178,14 +80,14 @@ SceneScript::Term take_term(Taker& from, const toml::table& table) {
   return out;
 }
 
-SceneScript::Part take_part(Taker& from, const std::string& file, std::optional<Error>& error) {
+SceneScript::Part take_part(TomlTable& from, const std::string& file, std::optional<Error>& error) {
   SceneScript::Part out;
   out.name = from.word("name", {});
   out.pack = from.word("pack", "");
   out.start = from.point("start");
   for (const toml::table* table : from.tables("term")) {
-    Taker term(*table, file, error);
-    out.terms.push_back(take_term(term, *table));
+    TomlTable term(*table, file, error);
+    out.terms.push_back(take_term(term));
     term.done();
   }
   return out;
@@ -229,29 +131,27 @@ Shortfall shortfall(const Scene& scene, const TermReport& r) {
 }  // namespace
 
 Result<SceneScript> parse_scene(const std::string& text, const std::string& name) {
-  const toml::parse_result parsed = toml::parse(text);
-  if (!parsed)
-    return Error{ErrorCode::BadContent, place(name, parsed.error().source()) + "not TOML: " +
-                                            std::string(parsed.error().description())};
+  const auto parsed = parse_toml(text, name);
+  if (!parsed) return parsed.error();
   std::optional<Error> error;
-  Taker from(parsed.table(), name, error);
+  TomlTable from(*parsed, name, error);
   SceneScript out;
   out.seconds = from.number("seconds", {}, 0.1, 3600);
   out.made_for = from.word("for", "");
-  if (parsed.table().contains("size")) {
+  if (parsed->contains("size")) {
     const Vec2 size = from.point("size");
     out.width = static_cast<int>(size.x);
     out.height = static_cast<int>(size.y);
     if (out.width < 2 || out.height < 2 || out.width > 16384 || out.height > 16384)
-      from.complain(parsed.table().get("size")->source(), "size", "2 to 16384 px a side are due");
+      from.complain(*parsed->get("size"), "size", "2 to 16384 px a side are due");
   }
   std::set<std::string> names;
   for (const toml::table* table : from.tables("sprite")) {
-    Taker part(*table, name, error);
+    TomlTable part(*table, name, error);
     out.parts.push_back(take_part(part, name, error));
     part.done();
     if (!names.insert(out.parts.back().name).second)
-      from.complain(table->source(), "name", "two sprites of one name");
+      from.complain(*table, "name", "two sprites of one name");
   }
   from.done();
   if (error) return *error;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "tool/commands/path_parts.h"
 #include "tool/report.h"
@@ -59,14 +60,16 @@ class Watch {
       : settings_(settings), console_(console), listener_(console.listener()) {}
 
   SceneResult search(const Scene& scene, std::vector<std::vector<std::uint32_t>> start) {
-    const InterruptNote note;
+    // A beam has no best so far: an interrupt ends it as it ends everything else.
+    std::optional<InterruptNote> note;
+    if (settings_.search != "beam") note.emplace();
     listener_.begin("search");
     ReplaceConfig config{.seed = settings_.seed, .start = std::move(start)};
     if (settings_.proposals > 0) config.proposals = settings_.proposals;
     config.go_on = [this](std::uint64_t proposals, double cost) { return look(proposals, cost); };
     SceneResult result = settings_.search == "beam" ? scene_beam(scene, settings_.beam)
                                                     : replace_search(scene, config);
-    stopped = InterruptNote::is_set();
+    stopped = note && InterruptNote::is_set();
     seconds = seconds_since(begun_);
     curve.push_back({{"seconds", seconds}, {"proposals", result.proposals}, {"cost", result.cost}});
     listener_.end("search", false);
