@@ -277,6 +277,8 @@ Json cast_result(const StageRun& run, const std::vector<Member>& members, const 
   for (const Member& member : members)
     noise = std::max(noise, member.matching.scale * member.result.value("velocity_noise", 0.0));
   out["velocity_noise"] = noise;
+  // The pack lives on the first clip's floor.
+  if (out.contains("floor")) out["floor"]["scale"] = cast.rows.front().scale;
   out["background"] = "each clip its own";
   out["cast"] = Json::array();
   for (std::size_t k = 0; k < members.size(); ++k)
