@@ -31,7 +31,7 @@ std::string error_of(const std::vector<Standing>& sights, const FloorChoice& cho
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
 TEST(Floor, TheHorizonIsFoundThroughStridesAndCrouches) {
-  const auto floor = find_floor(walk(0.08), {.fitted = true}, 640);
+  const auto floor = find_floor(walk(0.08), {.horizon = {}, .fitted = true}, 640);
   ASSERT_TRUE(floor);
   EXPECT_NEAR(floor->horizon, 100, 6);
   EXPECT_NEAR(floor->line, 420, 1);
@@ -50,8 +50,8 @@ TEST(Floor, WhatIsGivenIsTaken) {
 TEST(Floor, SaysWhatCannotBe) {
   std::vector<Standing> same, flat;
   for (int k = 0; k < 100; ++k) same.push_back({200.0 + k, 90}), flat.push_back({200, 90.0 + k});
-  EXPECT_TRUE(has(error_of(same, {.fitted = true}), "keeps its size, 90 px high"));
-  EXPECT_TRUE(has(error_of(flat, {.fitted = true}), "feet stay at y = 200"));
+  EXPECT_TRUE(has(error_of(same, {.horizon = {}, .fitted = true}), "keeps its size, 90 px high"));
+  EXPECT_TRUE(has(error_of(flat, {.horizon = {}, .fitted = true}), "feet stay at y = 200"));
   EXPECT_TRUE(has(error_of(walk(0), {.horizon = 300}), "feet come to y = 18"));
   EXPECT_TRUE(has(error_of(walk(0), {.horizon = 100, .line = 90}), "above the horizon"));
   EXPECT_FALSE(error_of({}, {.horizon = 100}).empty());
