@@ -110,4 +110,5 @@ sed 's/distance = 20/distance = nan/' scene.toml >nan.toml
 expect 3 path nan.toml; says "nan.toml:12: distance:"; one_sentence
 sed 's/at = \[90/at = [900/' scene.toml >unmet.toml
 expect 0 path unmet.toml --proposals 500; says "is not met"
+grep -Eq 'a, term 1 \(location\) is not met: [0-9]+\.[0-9] px off at [0-9.]+ s' stderr || fail "not said by how much and when"
 finish
