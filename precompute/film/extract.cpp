@@ -206,9 +206,8 @@ Result<Ground> floor_of(std::span<const FrameSummary> frames, const Track& track
   std::vector<Standing> sights;
   for (const Clip& clip : clips)
     for (const Kept& kept : clip)
-      sights.push_back(
-          {steady_ground(frames, track, kept.frame),
-           static_cast<double>(track.blob[static_cast<std::size_t>(kept.frame)]->box.height)});
+      sights.push_back({steady_ground(frames, track, kept.frame),
+                        std::sqrt(track.blob[static_cast<std::size_t>(kept.frame)]->area)});
   return find_floor(sights, config.floor, config.width);
 }
 

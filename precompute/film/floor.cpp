@@ -49,7 +49,7 @@ Result<double> fit_horizon(std::span<const Standing> sights) {
   const double far = slope * some.front().feet + rest, near = slope * some.back().feet + rest;
   if (!(slope > 0) || !(far > 0) || near < kLeastGrowth * far)
     return no_fit("the subject keeps its size, " + px(far) +
-                  " px high with its feet at y = " + px(some.front().feet) + " and " + px(near) +
+                  " px with its feet at y = " + px(some.front().feet) + " and " + px(near) +
                   " px at y = " + px(some.back().feet));
   return -rest / slope;
 }

@@ -3,8 +3,8 @@
 //
 // film/floor.h - the floor that a subject walks on, from what is known of it or from the film.
 //
-// On a floor a subject's height in the picture is k (y - h): in proportion to how far its feet lie
-// below the horizon. So the heights of all samples against their feet give a line that meets 0 at
+// On a floor a subject's size in the picture is k (y - h): in proportion to how far its feet lie
+// below the horizon. So the sizes of all samples against their feet give a line that meets 0 at
 // the horizon. The line is that of the median slope (Theil and Sen), which strides, crouches and
 // jumps of single frames do not move.
 #pragma once
@@ -37,7 +37,7 @@ FloorPlace on_floor(const Ground& ground, double x, double y);
 /// One sight of the subject, film px.
 struct Standing {
   double feet = 0;    ///< y
-  double height = 0;  ///< of its box
+  double height = 0;  ///< or any other length of it: the square root of its area is steadier
 };
 
 /// Film px; `width` of the film. Pre: choice.is_there().

@@ -41,7 +41,11 @@ sys.exit(not (abs(floor["horizon"] - 30) < 3 and abs(far / close - 1) < 0.06 and
 END
 
 # Drawn: the figure's height in the picture, against where its feet are.
-printf '80 100\n110 90\n80 74\n50 90\n80 100\n' >round.txt
+# circle X Y RADIUS : on the ground, as the film goes round.
+circle() { seq 0 11 | awk -v x="$1" -v y="$2" -v r="$3" '{ f = 1.5708 + $1 * 0.5236; print x + r * cos(f), y + r * sin(f) }'; }
+# seen HORIZON LINE MIDDLE : points on the ground as a camera of 160 px sees them.
+seen() { awk -v h="$1" -v l="$2" -v c="$3" '{ s = 160 / (160 - $2); print c + s * $1, h + (l - h) * s }'; }
+circle 0 -80 70 | seen 30 110 80 >round.txt
 expect 0 vsprite path floor.vsp --script round.txt --size 160x120 --beam 2000 -o round.mkv
 expect 0 vsprite path floor.vsp --script round.txt --size 160x120 --beam 2000 -o round.json
 ffmpeg -v error -y -i round.mkv -vf alphaextract -f rawvideo -pix_fmt gray alpha.raw || fail "no alpha"
@@ -63,9 +67,11 @@ sys.exit(not (near[1] > 1.3 * far[1] and abs(far[2] / near[2] - 1) < 0.15))
 END
 # The same path given on the ground; another floor in the picture; none.
 expect 0 vsprite path floor.vsp --script round.txt --plane none --beam 2000
-printf '0 -20\n40 -60\n0 -120\n' >ground.txt
+circle 0 -62 65 >ground.txt
+circle 0 -62 65 | seen 60 208 160 >other.txt
 expect 0 vsprite path floor.vsp --script ground.txt --plane ground --size 160x120 --beam 2000 -o ground.mp4
-expect 0 vsprite path floor.vsp --script round.txt --size 320x240 --horizon 20 --ground-line 120 --beam 2000 -o other.mp4
+expect 0 vsprite path floor.vsp --script other.txt --size 320x240 --horizon 60 --ground-line 208 \
+  --focal 160 --beam 2000 -o other.mp4
 
 # What cannot be.
 expect 2 vsprite build floor.mp4 -o x.vsp --horizon low; says "fit or a number"; one_sentence

@@ -50,7 +50,7 @@ TEST(Floor, WhatIsGivenIsTaken) {
 TEST(Floor, SaysWhatCannotBe) {
   std::vector<Standing> same, flat;
   for (int k = 0; k < 100; ++k) same.push_back({200.0 + k, 90}), flat.push_back({200, 90.0 + k});
-  EXPECT_TRUE(has(error_of(same, {.horizon = {}, .fitted = true}), "keeps its size, 90 px high"));
+  EXPECT_TRUE(has(error_of(same, {.horizon = {}, .fitted = true}), "keeps its size, 90 px with"));
   EXPECT_TRUE(has(error_of(flat, {.horizon = {}, .fitted = true}), "feet stay at y = 200"));
   EXPECT_TRUE(has(error_of(walk(0), {.horizon = 300}), "feet come to y = 18"));
   EXPECT_TRUE(has(error_of(walk(0), {.horizon = 100, .line = 90}), "above the horizon"));
