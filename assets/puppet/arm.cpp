@@ -42,13 +42,11 @@ Path outline(float length, float start, float end, float swell, float under) {
   return out;
 }
 
-Path placed(const Path& path, Vec2 pivot, double angle, float grow) {
+Path placed(const Path& path, Vec2 pivot, double angle) {
   Path out;
   const auto c = static_cast<float>(std::cos(angle)), s = static_cast<float>(std::sin(angle));
-  for (Vec2 p : path) {
-    p.y *= grow;
+  for (const Vec2 p : path)
     out.push_back({pivot.x + c * p.x - s * p.y, pivot.y + s * p.x + c * p.y});
-  }
   return out;
 }
 
@@ -61,14 +59,24 @@ Shapes shapes(double elbow) {
           outline(kFore, 23, 15, 7 - 2 * bend, 5 + 3 * bend)};
 }
 
+// The mesh lies round what is painted, its round ends too.
+Path grown(Path path, float length) {
+  constexpr float kGrow = 1.12f;
+  for (Vec2& p : path) {
+    p.y *= kGrow;
+    p.x += (kGrow - 1) * (p.x - std::clamp(p.x, 0.0f, length));
+  }
+  return path;
+}
+
 // Both links with their joints, at these pivots and angles.
 Path points(const Shapes& s, Vec2 shoulder, double a, Vec2 elbow, double b) {
-  Path out = placed(s.upper, shoulder, a, 1.12f);
-  const auto end = placed({{0, 0}, {kUpper, 0}}, shoulder, a, 1);
+  Path out = placed(grown(s.upper, kUpper), shoulder, a);
+  const auto end = placed({{0, 0}, {kUpper, 0}}, shoulder, a);
   out.insert(out.end(), end.begin(), end.end());
-  const Path fore = placed(s.fore, elbow, b, 1.12f);
+  const Path fore = placed(grown(s.fore, kFore), elbow, b);
   out.insert(out.end(), fore.begin(), fore.end());
-  const auto tip = placed({{0, 0}, {kFore, 0}, {kFore + 46, -24}, {kFore + 46, 24}}, elbow, b, 1);
+  const auto tip = placed({{0, 0}, {kFore, 0}, {kFore + 46, -24}, {kFore + 46, 24}}, elbow, b);
   out.insert(out.end(), tip.begin(), tip.end());
   return out;
 }
@@ -131,8 +139,8 @@ View draw_arm(double shoulder, double elbow) {
   view.texture_points = points(s, kUpperAt, 0, kForeAt, 0);
   Canvas canvas(280, 260);
   const auto bend = static_cast<float>(std::sin(std::clamp(-elbow / 2, 0.0, 1.3)));
-  paint_link(canvas, placed(s.upper, kUpperAt, 0, 1), kUpperAt, kUpper, true, bend);
-  paint_link(canvas, placed(s.fore, kForeAt, 0, 1), kForeAt, kFore, false, bend * 0.4f);
+  paint_link(canvas, placed(s.upper, kUpperAt, 0), kUpperAt, kUpper, true, bend);
+  paint_link(canvas, placed(s.fore, kForeAt, 0), kForeAt, kFore, false, bend * 0.4f);
   paint_fist(canvas, {kForeAt.x + kFore + 2, kForeAt.y});
   view.picture = canvas.picture();
   return view;

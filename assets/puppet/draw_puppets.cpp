@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: MIT
 //
 // draw_puppets FOLDER: writes the drawings and their VIEWS.toml files, for `vsprite fit`.
+// draw_puppets PACK.vsp: fits them all, for games/puppet.
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 
 #include "puppet/art.h"
+#include "tool/views_file.h"
+#include "vsprite/exit_code.h"
 
 namespace {
 
@@ -92,18 +96,37 @@ bool write_set(const std::filesystem::path& folder, const ViewSet& set) {
   return toml.good();
 }
 
+std::array<ViewSet, 4> all_sets() {
+  return {puppet_art::face_views(), puppet_art::walk_views(), puppet_art::jump_views(),
+          puppet_art::arm_views()};
+}
+
+Result<void> write_pack(const std::string& path) {
+  std::vector<Puppet> all;
+  for (const ViewSet& set : all_sets()) {
+    auto puppets = fit_puppets(set);
+    if (!puppets) return puppets.error();
+    for (Puppet& puppet : *puppets) all.push_back(std::move(puppet));
+  }
+  return save_puppet_pack(path, all);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::fputs("usage: draw_puppets FOLDER\n", stderr);
+    std::fputs("usage: draw_puppets FOLDER|PACK.vsp\n", stderr);
     return 2;
   }
   const std::filesystem::path folder(argv[1]);
+  if (folder.extension() == ".vsp") {
+    const auto wrote = write_pack(folder.string());
+    if (!wrote) std::fprintf(stderr, "draw_puppets: error: %s\n", wrote.error().message.c_str());
+    return wrote ? 0 : exit_code(wrote.error().code);
+  }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  for (const ViewSet& set : {puppet_art::face_views(), puppet_art::walk_views(),
-                             puppet_art::jump_views(), puppet_art::arm_views()})
+  for (const ViewSet& set : all_sets())
     if (!write_set(folder, set)) {
       std::fprintf(stderr, "draw_puppets: error: %s cannot be written\n", argv[1]);
       return 74;

@@ -99,9 +99,9 @@ bool walk_sheets(const std::string& folder) {
 bool jump_sheet(const std::string& folder) {
   const auto puppets = fit_puppets(puppet_art::jump_views());
   if (!puppets) return std::fprintf(stderr, "%s\n", puppets.error().message.c_str()), false;
-  Sheet sheet(11, 1, 168, 352);
+  Sheet sheet(11, 1, 196, 352);
   for (int k = 0; k <= 10; ++k)
-    sheet.cell((*puppets)[0], {k / 10.0}, k, 0, {-42, 84}, 0.75f,
+    sheet.cell((*puppets)[0], {k / 10.0}, k, 0, {-30, 84}, 0.75f,
                k != 1 && k != 4 && k != 6 && k != 9, true);
   return sheet.write(folder + "/jump.png");
 }

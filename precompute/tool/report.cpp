@@ -279,6 +279,23 @@ Json build_json(const std::vector<StageOutcome>& outcomes) {
   return out;
 }
 
+Json puppet_json(const Puppet& puppet) {
+  Json parameters = Json::array();
+  for (const PuppetParameter& p : puppet.parameters)
+    parameters.push_back(
+        {{"name", p.name}, {"low", p.low}, {"high", p.high}, {"period", p.period}});
+  return {{"name", puppet.name},          {"points", puppet.point_count()},
+          {"faces", puppet.faces.size()}, {"views", puppet.views.size()},
+          {"links", puppet.links.size()}, {"kernel", kernel_name(puppet.net.kernel)},
+          {"parameters", parameters}};
+}
+
+std::string puppet_line(const Puppet& puppet) {
+  return puppet.name + ": " + std::to_string(puppet.point_count()) + " control points, " +
+         std::to_string(puppet.faces.size()) + " faces, " + std::to_string(puppet.views.size()) +
+         " pictures, kernel " + std::string(kernel_name(puppet.net.kernel)) + "\n";
+}
+
 Json info_json(const Sprite& sprite, const PackInfo& info) {
   const SpriteData& data = sprite.data();
   Json tags = Json::array(), modes = Json::array(), sections = Json::array();

@@ -13,6 +13,7 @@
 #include "control/response.h"
 #include "tool/stages.h"
 #include "vsprite/pack.h"
+#include "vsprite/puppet.h"
 #include "vsprite/sprite.h"
 
 namespace vsprite {
@@ -24,6 +25,9 @@ Json build_json(const std::vector<StageOutcome>& outcomes);
 
 std::string info_text(const std::string& path, const Sprite& sprite, const PackInfo& info);
 Json info_json(const Sprite& sprite, const PackInfo& info);
+Json puppet_json(const Puppet& puppet);
+/// One line: name, control points, faces, pictures, kernel.
+std::string puppet_line(const Puppet& puppet);
 
 std::string steer_text(const SteerReport& report, double fps);
 Json steer_json(const SteerReport& report);

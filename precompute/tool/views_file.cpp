@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include "tool/views_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include "tool/files.h"
 #include "tool/toml_table.h"
+#include "vsprite/pack.h"
 
 namespace vsprite {
 namespace {
@@ -164,12 +166,53 @@ class Parser {
   std::optional<Error> error_, failed_;
 };
 
+// A pack needs samples: the drawn views themselves, one after the other in a ring.
+SpriteData ring_of_views(const Puppet& puppet) {
+  SpriteData data;
+  data.name = puppet.name;
+  const auto count = static_cast<std::uint32_t>(puppet.views.size());
+  data.row_start.assign(1, 0);
+  for (std::uint32_t v = 0; v < count; ++v) {
+    const Image& picture = puppet.views[v].picture;
+    Sample sample;
+    sample.width = static_cast<std::uint16_t>(picture.width);
+    sample.height = static_cast<std::uint16_t>(picture.height);
+    sample.anchor = {static_cast<float>(picture.width) / 2, static_cast<float>(picture.height) / 2};
+    sample.clip = v, sample.frame = v, sample.kept = 1;
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
+      sample.area += static_cast<float>(picture.rgba[i]) / 255;
+    data.body_length = std::max(
+        {data.body_length, static_cast<float>(picture.width), static_cast<float>(picture.height)});
+    data.samples.push_back(sample);
+    data.transitions.push_back({(v + 1) % count, 0});
+    data.row_start.push_back(v + 1);
+  }
+  ControlMode mode;
+  mode.name = "paper";
+  mode.table_of.fill(Direction::Rest);
+  for (std::size_t t = 0; t < mode.tables(); ++t)
+    for (std::uint32_t v = 0; v < count; ++v) mode.next.push_back((v + 1) % count);
+  mode.go.assign(mode.next.size(), 0);
+  data.modes.push_back(std::move(mode));
+  return data;
+}
+
 }  // namespace
 
 Result<ViewSet> parse_views(const std::string& text, const std::string& path) {
   const auto parsed = parse_toml(text, path);
   if (!parsed) return parsed.error();
   return Parser(path).parse(*parsed);
+}
+
+Result<void> save_puppet_pack(const std::string& path, const std::vector<Puppet>& puppets) {
+  const FrameSource frames = [&](std::uint32_t sample) -> Result<Image> {
+    Image picture = puppets[0].views[sample].picture;
+    unpremultiply(picture);
+    return picture;
+  };
+  if (auto saved = save_pack(path, ring_of_views(puppets[0]), frames); !saved) return saved;
+  return save_puppets(path, path, puppets);
 }
 
 Result<void> add_puppets(const std::string& work, const std::string& pack) {

@@ -11,10 +11,16 @@ for name in face john jump arm; do
 done
 expect 0 vsprite fit art/john.toml -o again.vsp --json
 is_json /puppets/0/name /puppets/1/points /puppets/0/parameters/0/low
+expect 0 vsprite info john.vsp
+prints "puppet john: 95 control points"; prints "puppet jayne: "
+expect 0 vsprite info face.vsp --json
+is_json /puppets/0/parameters/1/name
 [ "$(sum john.vsp)" = "$(sum again.vsp)" ] || fail "the same views gave other bytes"
 
 expect 66 vsprite fit absent.toml -o x.vsp
 one_sentence
+expect 3 vsprite fit art/face_1.png -o x.vsp
+says "a text is due that names the views"; one_sentence
 expect 2 vsprite fit art/face.toml
 says "-o PACK"; one_sentence
 # bad SED TEXT: face.toml, spoilt so, is refused with exit 3 and these words.

@@ -11,6 +11,7 @@
 #include "tool/report.h"
 #include "vsprite/actor.h"
 #include "vsprite/pack.h"
+#include "vsprite/puppet.h"
 #include "vsprite/replay.h"
 
 namespace vsprite {
@@ -45,8 +46,17 @@ Result<int> run_info(const Settings& settings, Console& console) {
   if (!sprite) return sprite.error();
   const auto info = read_pack_info(settings.film);
   if (!info) return info.error();
-  console.text(info_text(settings.film, *sprite, *info));
-  console.document(info_json(*sprite, *info));
+  const auto puppets = load_puppets(settings.film);
+  if (!puppets) return puppets.error();
+  std::string text = info_text(settings.film, *sprite, *info);
+  Json document = info_json(*sprite, *info);
+  document["puppets"] = Json::array();
+  for (const Puppet& puppet : *puppets) {
+    text += "puppet " + puppet_line(puppet);
+    document["puppets"].push_back(puppet_json(puppet));
+  }
+  console.text(text);
+  console.document(document);
   console.next("vsprite play " + shell_word(settings.film));
   return 0;
 }
