@@ -187,6 +187,9 @@ void pose_puppet(const Puppet& puppet, std::span<const double> parameters,
   pose.outside = clamp_to_hull(puppet.net, x);
   const std::size_t points = puppet.point_count(), views = puppet.views.size();
   predict(puppet.net, x, std::span(pose.scratch).first(outputs_due(puppet)));
+  // Far outside what they were made for networks may yield anything; no pose leaves the numbers.
+  constexpr double kFar = 1e6;
+  for (double& value : pose.scratch) value = value > -kFar ? std::min(value, kFar) : -kFar;
   const double* out = pose.scratch.data();
   const auto m = static_cast<float>(puppet.motion);
   for (std::size_t i = 0; i < points; ++i) {

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "support/naive_actions.h"
+#include "support/tiny_puppet.h"
 #include "support/tiny_sprite.h"
 #include "vsprite/action.h"
 #include "vsprite/actor.h"
@@ -82,6 +83,21 @@ TEST(Allocation, ActionsEventsAndOwnersTakeNone) {
     if (tick > 250) own_scaled(actor, {2, 2});
     step(sprite, actor);
     events += events_of(sprite, actor).named.size() + hash_states({&actor, 1}) % 2;
+  }
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(Allocation, PosingAndDrawingAPuppetTakesNone) {
+  const Puppet puppet = testing::glass_puppet();
+  PuppetPose pose = make_pose(puppet);
+  PuppetPainter painter;
+  Image canvas = make_checkerboard(64, 64);
+  render_puppet(puppet, pose, painter, canvas, {8, 8});  // the painter takes what it needs once
+  const long before = allocations;
+  for (int tick = 0; tick < 50; ++tick) {
+    pose_puppet(puppet, std::array{tick / 50.0}, pose);
+    render_puppet(puppet, pose, painter, canvas, {8, 8}, 0.5f);
+    (void)reach_for({0, 0}, {static_cast<float>(tick), 4}, 20, 20, -1);
   }
   EXPECT_EQ(allocations, before);
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "pack_format.h"
+#include "vsprite/puppet.h"
 #include "vsprite/vsprite.h"
 
 namespace vsprite::fuzz {
@@ -75,6 +76,28 @@ void fuzz_png(std::span<const std::uint8_t> bytes) {
   if (!image || image->rgba.size() > 1u << 20) return;
   const auto again = encode_png(*image);
   require(again && decode_png(*again, "again")->rgba == image->rgba);
+}
+
+void fuzz_puppet(std::span<const std::uint8_t> bytes) {
+  const auto puppets = decode_puppets(bytes, "fuzz.vsp");
+  if (!puppets) return require(!puppets.error().message.empty());
+  PuppetPainter painter;
+  Image canvas = make_checkerboard(24, 24);
+  for (const Puppet& puppet : *puppets) {
+    if (puppet.faces.size() > 1000) continue;
+    PuppetPose pose = make_pose(puppet);
+    for (const double share : {-1.0, 0.5}) {
+      std::vector<double> at;
+      for (const PuppetParameter& p : puppet.parameters)
+        at.push_back(p.low + share * (p.high - p.low));
+      pose_puppet(puppet, at, pose);
+      render_puppet(puppet, pose, painter, canvas, {4, 4});
+    }
+  }
+  const auto again = encode_puppets(*puppets);
+  require(again.has_value());
+  const auto back = decode_puppets(*again, "again");
+  require(back && *encode_puppets(*back) == *again);
 }
 
 void fuzz_script(std::span<const std::uint8_t> bytes) {
