@@ -9,6 +9,7 @@
 
 #include "control/response.h"
 #include "similarity/features.h"
+#include "tool/page.h"
 #include "tool/report.h"
 #include "vsprite/image.h"
 
@@ -37,20 +38,6 @@ std::string escaped(std::string_view text) {
 
 std::string name(Direction d) { return std::string(direction_name(d)); }
 std::string fixed(double value, int decimals = 1) { return fixed_text(value, decimals); }
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      out += i + k <= bytes.size() ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 // Smaller by a whole factor, each pixel the mean of a square; premultiplied in and out.
 Image shrink(const Image& image, int factor) {

@@ -319,6 +319,11 @@ void add_use_options(Row& t) {
   t.text("replay", "FILE", &Settings::replay,
          "makes a recorded run again; exit 3 at the first tick that comes out otherwise",
          " steer ");
+  t.text("to", "FORM", &Settings::to, "what it becomes: one web page", " export ", "html")
+      .in_config = false;
+  t.text("template", "FILE", &Settings::page,
+         "the page that takes the pack; default: player.html of the installation", " export ");
+  t.real("limit", "MB", &Settings::page_limit, 1, 1000, false, "largest page", " export ");
   t.text("what", "WHAT", &Settings::what, "which numbers", " dump ",
          "samples|labels|features|distances|transitions|values");
   t.text("format", "FORMAT", &Settings::format, "how they are written", " dump ", "csv|npy");
@@ -376,7 +381,7 @@ void add_path_options(Row& t) {
 
 void add_common_options(Row& t) {
   t.text("output", "FILE", &Settings::output, "the file to write",
-         " segment build fit pack dump play steer path report ")
+         " segment build fit pack export dump play steer path report ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",

@@ -103,6 +103,9 @@ struct Settings {
   double w2 = 8;
   double tau = 0.1;
   double budget = 10;
+  std::string to;               ///< export: what it becomes
+  std::string page;             ///< export: the template; empty: the installation's
+  double page_limit = 10;       ///< MB
   std::uint64_t proposals = 0;  ///< 0: as many as the budget allows
   std::string resume;
   std::string clip;

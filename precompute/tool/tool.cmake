@@ -18,6 +18,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/label_session.cpp
   tool/labels.cpp
   tool/path_edit.cpp
+  tool/page.cpp
   tool/path_film.cpp
   tool/path_script.cpp
   tool/pictures.cpp
@@ -42,6 +43,7 @@ add_executable(vsprite
   tool/commands/doctor.cpp
   tool/commands/doctor_film.cpp
   tool/commands/dump.cpp
+  tool/commands/export.cpp
   tool/commands/fit.cpp
   tool/commands/help.cpp
   tool/commands/inspect.cpp

@@ -37,6 +37,8 @@ constexpr Verb kVerbs[] = {
      "vsprite report hamster.vsp -o hamster.html", run_report},
     {"validate", "PACK", "check a pack, byte by byte", "vsprite validate hamster.vsp",
      run_validate},
+    {"export", "PACK --to html", "a character for other places: one web page with everything in it",
+     "vsprite export hamster.vsp --to html -o hamster.html", run_export},
     {"dump", "FILM|PACK|--work DIR", "the numbers behind a sprite, as npy or csv",
      "vsprite dump --work hamster.work --what transitions --format npy -o t.npy", run_dump},
     {"doctor", "[FILM|PACK|--work DIR]",
@@ -108,6 +110,7 @@ std::string overview_screen() {
       "  info    what a pack contains    validate  check a pack, byte by byte\n"
       "  dump    the numbers, as npy/csv doctor    what is wrong here\n"
       "  path    follow a drawn path     report    what to film next, as a page\n"
+      "  export  as one web page\n"
       "\n"
       "common:  --jobs N  --seed N  --config FILE.toml  --json  --quiet  --progress MODE  "
       "--version  "
