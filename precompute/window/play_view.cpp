@@ -246,7 +246,7 @@ void PlayView::draw(Session& session, const Sprite& sprite, FrameCache& frames,
   r.set_camera({});
 
   const Ink ink = ink_of(s.ground);
-  const float ui = std::max(0.6f, height / 720);
+  const float ui = std::max(0.6f, std::min(height / 720, width / 960));
   const ControlMode& mode = sprite.data().modes[s.actor.mode];
   if (s.hint > 0) {
     draw_keys(r, {0.5f * width, height - 92 * ui}, 58 * ui, mode, s.command, s.hint);
