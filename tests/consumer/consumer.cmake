@@ -17,5 +17,5 @@ endforeach()
 set_tests_properties(consumer.install PROPERTIES FIXTURES_SETUP installed)
 set_tests_properties(consumer.draw PROPERTIES LABELS "slow;consumer;gl")
 add_test(NAME consumer.package COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/package_test.sh
-  ${PROJECT_BINARY_DIR})
+  ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})
 set_tests_properties(consumer.package PROPERTIES LABELS "slow;consumer" TIMEOUT 900 SKIP_RETURN_CODE 77)

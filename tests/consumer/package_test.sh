@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
-# Three Debian packages, the same bytes each time.
-# package_test.sh BUILD
+# Three Debian packages, the same bytes each time, from another folder too.
+# package_test.sh BUILD SOURCE
 set -u
-build=$1
+build=$1 source=$2
 for program in cpack dpkg-deb dpkg-shlibdeps; do
   command -v $program >/dev/null || { echo "SKIPPED: no $program on this machine"; exit 77; }
 done
@@ -38,3 +38,13 @@ depends libvsprite0 | grep -q 'libpng16' || fail "the runtime does not depend on
 depends libvsprite0 | grep -qE 'libav|libsdl|opencv|libsqlite' && fail "the runtime pulls in the tool's libraries"
 depends libvsprite-dev | grep -q 'libvsprite0 (= ' || fail "the dev package does not need the runtime"
 depends vsprite-tools | grep -q 'libavcodec' || fail "the tools do not need FFmpeg's libraries"
+
+# The engine alone, built elsewhere: the same package. (Another generator links in another order.)
+start=$SECONDS
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+cmake -G "$generator" -S "$source" -B "$room/other" -DCMAKE_BUILD_TYPE=Release -DVSPRITE_PRECOMPUTE=OFF -DVSPRITE_DRAW=OFF \
+  -DVSPRITE_GAMES=OFF -DVSPRITE_TESTS=OFF >"$room/log" 2>&1 &&
+  cmake --build "$room/other" -j "$(nproc)" >>"$room/log" 2>&1 || fail "$(tail "$room/log")"
+echo "the engine alone: built in $((SECONDS - start)) s"
+pack "$room/other" "$room/three" -D CPACK_COMPONENTS_ALL=runtime
+cmp "$room"/one/libvsprite0_*.deb "$room"/three/libvsprite0_*.deb || fail "libvsprite0: other bytes from another folder"
