@@ -3,6 +3,7 @@
 
 # Run at build time: writes OUT, what vsprite_cdef() returns: the declarations of HEADER, without
 # comments and macros.
+cmake_policy(VERSION 3.25)
 file(READ ${HEADER} text)
 string(REGEX REPLACE "^.*up to the line \"end of the declarations\"\\. \\*/" "" text "${text}")
 string(REGEX REPLACE "/\\* end of the declarations.*$" "" text "${text}")

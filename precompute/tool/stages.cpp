@@ -377,14 +377,13 @@ Result<StageOutcome> run_stage(StageRun& run, int index) {
 }  // namespace
 
 Json segment_settings(const Settings& s) {
-  Json out = {
-      {"key", s.key},       {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
-      {"draft", s.draft},   {"subject", s.subject},
-      {"anchor", s.anchor}, {"mirror", s.mirror},
-      {"smooth", s.smooth}, {"min-clip", s.min_clip}};
-  if (!s.horizon.empty())
-    out.update({{"horizon", s.horizon}, {"ground-line", s.ground_line}, {"focal", s.focal}});
-  return out;
+  return {
+      {"key", s.key},         {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
+      {"draft", s.draft},     {"subject", s.subject},
+      {"anchor", s.anchor},   {"mirror", s.mirror},
+      {"smooth", s.smooth},   {"min-clip", s.min_clip},
+      {"horizon", s.horizon}, {"ground-line", s.ground_line},
+      {"focal", s.focal}};
 }
 
 TransitionConfig transition_config(const Settings& settings) {
