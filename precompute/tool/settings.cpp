@@ -319,17 +319,28 @@ void add_use_options(Row& t) {
   t.text("replay", "FILE", &Settings::replay,
          "makes a recorded run again; exit 3 at the first tick that comes out otherwise",
          " steer ");
-  t.text("to", "FORM", &Settings::to, "what it becomes: one web page", " export ", "html")
-      .in_config = false;
-  t.text("template", "FILE", &Settings::page,
-         "the page that takes the pack; default: player.html of the installation", " export ");
-  t.real("limit", "MB", &Settings::page_limit, 1, 1000, false, "largest page", " export ");
   t.text("what", "WHAT", &Settings::what, "which numbers", " dump ",
          "samples|labels|features|distances|transitions|values");
   t.text("format", "FORMAT", &Settings::format, "how they are written", " dump ", "csv|npy");
   t.text("pairs", "FILE", &Settings::pair_file,
          "with --what features: a file of pairs to compare, `i,j` a line", " dump ")
       .in_config = false;
+}
+
+void add_export_options(Row& t) {
+  t.text(
+       "to", "FORMAT", &Settings::to,
+       "a web page; a folder of atlas pages and character.json; one of a PNG a sample and the same",
+       " export ", "html|table|png-seq")
+      .in_config = false;
+  t.whole("samples", "N", &Settings::samples, 0, 1000000,
+          "table, png-seq: at most so many, chosen so that control loses least; 0 = all",
+          " export ")
+      .in_config = false;
+  t.text("template", "FILE", &Settings::page,
+         "html: the page that takes the pack; default: player.html of the installation",
+         " export ");
+  t.real("limit", "MB", &Settings::page_limit, 1, 1000, false, "html: largest page", " export ");
 }
 
 void add_path_options(Row& t) {
@@ -380,7 +391,7 @@ void add_path_options(Row& t) {
 }
 
 void add_common_options(Row& t) {
-  t.text("output", "FILE", &Settings::output, "the file to write",
+  t.text("output", "FILE", &Settings::output, "the file to write (export to tables: the folder)",
          " segment build fit pack export dump play steer path report ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
@@ -413,6 +424,7 @@ Row make_table() {
   add_stage_options(t);
   add_label_options(t);
   add_use_options(t);
+  add_export_options(t);
   add_path_options(t);
   add_common_options(t);
   return t;

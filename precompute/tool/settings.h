@@ -106,6 +106,7 @@ struct Settings {
   std::string to;               ///< export: what it becomes
   std::string page;             ///< export: the template; empty: the installation's
   double page_limit = 10;       ///< MB
+  int samples = 256;            ///< export: at most; 0: all
   std::uint64_t proposals = 0;  ///< 0: as many as the budget allows
   std::string resume;
   std::string clip;

@@ -12,6 +12,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/cast_file.cpp
   tool/control.cpp
   tool/files.cpp
+  tool/export.cpp
   tool/film_report.cpp
   tool/keyed.cpp
   tool/label_store.cpp

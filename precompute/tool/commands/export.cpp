@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
+#include "tool/export.h"
+
 #include <cstdio>
 #include <filesystem>
 
@@ -11,19 +13,15 @@
 namespace vsprite {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string megabytes(std::size_t bytes) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f MB", static_cast<double>(bytes) / 1e6);
   return text;
 }
 
-}  // namespace
-
-Result<int> run_export(const Settings& settings, Console& console) {
-  namespace fs = std::filesystem;
-  if (settings.film.empty())
-    return Error{ErrorCode::BadSetting, "a pack is due: `vsprite export PACK --to html`"};
-  if (settings.to.empty()) return Error{ErrorCode::BadSetting, "--to is due: html"};
+Result<int> export_page(const Settings& settings, Console& console) {
   const auto sprite = load_pack(settings.film);
   if (!sprite) return sprite.error();
   const auto pack = read_file(settings.film);
@@ -52,6 +50,44 @@ Result<int> run_export(const Settings& settings, Console& console) {
                     {"bytes", page->size()},
                     {"pack_bytes", pack->size()}});
   return 0;
+}
+
+Result<int> export_folder(const Settings& settings, Console& console) {
+  const auto format = find_export_format(settings.to);
+  if (!format) return format.error();
+  const auto sprite = load_pack(settings.film);
+  if (!sprite) return sprite.error();
+  const std::string folder = settings.output.empty()
+                                 ? fs::path(settings.film).stem().string() + "-" + settings.to
+                                 : settings.output;
+  const StageListener listener = console.listener();
+  listener.begin("export");
+  auto choice = choose_for_export(*sprite, settings.samples, settings.seed, settings.jobs);
+  if (!choice)
+    return Error{choice.error().code,
+                 settings.film + ": " + choice.error().message + ": raise --samples, or 0 for all"};
+  if (auto made = make_folder(folder); !made) return made.error();
+  const auto wrote = (*format)->write({*sprite, std::move(*choice), folder, listener.progress});
+  if (!wrote) return wrote.error();
+  listener.end("export", false);
+  Json document = *wrote;
+  document["to"] = settings.to;
+  console.text(folder + ": " + std::to_string(document["samples"].get<std::size_t>()) +
+               " samples of " + std::to_string(sprite->samples().size()) +
+               ", character.json steers them\n");
+  console.document(document);
+  console.next("vsprite play " + shell_word(settings.film));
+  return 0;
+}
+
+}  // namespace
+
+Result<int> run_export(const Settings& settings, Console& console) {
+  if (settings.film.empty())
+    return Error{ErrorCode::BadSetting, "a pack is due: `vsprite export PACK --to html`"};
+  if (settings.to.empty())
+    return Error{ErrorCode::BadSetting, "--to is due: html, table or png-seq"};
+  return settings.to == "html" ? export_page(settings, console) : export_folder(settings, console);
 }
 
 }  // namespace vsprite
