@@ -29,5 +29,16 @@ expect 2 vsprite export tiny.vsp --template page.in; says "--to is due"; one_sen
 expect 2 vsprite export tiny.vsp --to gif; one_sentence
 expect 2 vsprite export --to html; says "a pack is due"; one_sentence
 expect 73 export_page -o absent/c.html; one_sentence
+
+"$BIN/make_film" circle ring.mp4 200 || fail "make_film"
+expect 0 vsprite build ring.mp4 -o ring.vsp --max-size 64
+expect 0 vsprite export ring.vsp --to table --samples 0 -o folder --json
+is_json /to /samples /pages /folder
+for file in character.json page-0.png; do [ -s folder/$file ] || fail "no $file"; done
+expect 0 vsprite export ring.vsp --to png-seq; prints "ring-png-seq: "
+[ -s ring-png-seq/sample-000000.png ] || fail "no pictures"
+expect 2 vsprite export ring.vsp --to tabel; says "html|table|png-seq"; one_sentence
+expect 73 vsprite export ring.vsp --to table -o absent/folder; one_sentence
+expect 66 vsprite export absent.vsp --to table; one_sentence
 no_temporaries
 finish
