@@ -169,9 +169,14 @@ vsprite_status guarded(const F& call) noexcept {
   }
 }
 
+// A handle of another kind may be less aligned than `Handle` is: its first bytes, copied, say what
+// it is.
 template <class Handle>
 bool is_open(const Handle* handle) noexcept {
-  return handle != nullptr && handle->kind == Handle::kKind;
+  if (handle == nullptr) return false;
+  Kind kind{};
+  std::memcpy(&kind, static_cast<const void*>(handle), sizeof kind);
+  return kind == Handle::kKind;
 }
 
 // A struct of the caller's, of whatever version.
