@@ -13,6 +13,7 @@ namespace vsprite::detail {
 
 /// Cephes' rational approximation on [-ln 2 / 2, ln 2 / 2]. 0 below -708, infinity above 709.
 inline double portable_exp(double x) noexcept {
+  if (std::isnan(x)) return x;
   if (x < -708) return 0;
   if (x > 709) return HUGE_VAL;
   const double n = std::floor(1.4426950408889634 * x + 0.5);
