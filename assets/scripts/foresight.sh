@@ -42,6 +42,6 @@ for name, run in runs.items():
         path += "H%.1fV%.1f" % (x(t), y(c))
     out.append("<path d='%s' fill='none' stroke='#1f6fb4' stroke-width='1.5'/>" % path)
 best = min(r["cost"] for n, r in runs.items() if n.startswith("replace"))
-out.append("<text x='%d' y='%.1f' fill='#1f6fb4'>replacement, three seeds: %.1f</text>" % (left + 230, y(best) - 22, best))
+out.append("<text x='%d' y='%.1f' fill='#1f6fb4'>replacement, three seeds: %.1f at best</text>" % (left + 230, y(best) + 16, best))
 print("\n".join(out) + "</svg>")
 END
