@@ -25,11 +25,11 @@ start() {
     kill -0 $window 2>/dev/null || { cp log.err stderr; fail "the window did not open"; finish; }
     sleep 0.05
   done
-  sleep 0.5
+  sleep 1.5
 }
-at() { xdotool mousemove "$1" "$2"; sleep 0.1; }
-click() { at "$1" "$2"; xdotool mousedown "${3:-1}"; sleep 0.1; xdotool mouseup "${3:-1}"; sleep 0.1; }
-press() { xdotool key "$1"; sleep 0.15; }
+at() { xdotool mousemove "$1" "$2"; sleep 0.25; }
+click() { at "$1" "$2"; xdotool mousedown "${3:-1}"; sleep 0.25; xdotool mouseup "${3:-1}"; sleep 0.25; }
+press() { xdotool key "$1"; sleep 0.3; }
 points() { grep -vc '^#' drawn.txt; }
 saved() {  # saved N WHAT: after the key S the file has so many points
   press s
