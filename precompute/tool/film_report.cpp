@@ -21,21 +21,6 @@ constexpr std::uint32_t kStripApart = 4;  // samples
 constexpr const char* kFeatureNames[kFeatureCount] = {"speed", "angle",       "colour",
                                                       "alpha", "mean colour", "area"};
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else if (c == '\'')
-      out += "&#39;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 std::string name(Direction d) { return std::string(direction_name(d)); }
 std::string fixed(double value, int decimals = 1) { return fixed_text(value, decimals); }
 
@@ -244,13 +229,14 @@ void add_rows(const std::string& key, const Json& value, std::string& out) {
   if (listed || value.is_null() || (value.is_array() && value.empty())) return;
   std::string words = key;
   std::replace(words.begin(), words.end(), '_', ' ');
-  out += "<tr><td>" + escaped(words) + "</td><td>" + escaped(value_text(value)) + "</td></tr>";
+  out +=
+      "<tr><td>" + escape_html(words) + "</td><td>" + escape_html(value_text(value)) + "</td></tr>";
 }
 
 std::string record_table(const Json& records) {
   std::string out;
   for (const auto& [stage, result] : records.items()) {
-    out += "<details><summary>" + escaped(stage) + "</summary><table class='figures'>";
+    out += "<details><summary>" + escape_html(stage) + "</summary><table class='figures'>";
     for (const auto& [key, value] : result.items())
       if (key != "dropped" && key != "roc") add_rows(key, value, out);
     out += "</table></details>";
@@ -259,15 +245,14 @@ std::string record_table(const Json& records) {
 }
 
 std::string embedded(const std::string& png, const std::string& title) {
-  const std::vector<std::uint8_t> bytes(png.begin(), png.end());
-  return "<img class='whole' alt='" + escaped(title) + "' src='data:image/png;base64," +
-         base64(bytes) + "'>";
+  return "<img class='whole' alt='" + escape_html(title) + "' src='data:image/png;base64," +
+         base64({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()}) + "'>";
 }
 
 std::string dropped_pictures(const FilmReport& report) {
   std::string out;
   for (const FilmReport::Dropped& d : report.dropped)
-    out += "<figure>" + embedded(d.png, d.reason) + "<figcaption>" + escaped(d.reason) + ": " +
+    out += "<figure>" + embedded(d.png, d.reason) + "<figcaption>" + escape_html(d.reason) + ": " +
            fixed(100 * d.share) + " % of the frames, for instance " + std::to_string(d.frame) +
            "</figcaption></figure>";
   return out;
@@ -327,14 +312,15 @@ std::string report_text(const Sprite& sprite, const FilmReport& report) {
 Result<std::string> report_html(const Sprite& sprite, const FilmReport& report) {
   const auto pictures = strips(sprite);
   if (!pictures) return pictures.error();
-  const std::string title = escaped(sprite.data().name);
-  std::string page =
-      "<!doctype html><html lang='en'><meta charset='utf-8'><title>" + title + "</title>" + kStyle +
-      "\n<h1>" + title + "</h1>\n<p>" + std::to_string(sprite.samples().size()) + " samples, " +
-      fixed(kept_seconds(sprite)) + " s of film in use at " + fixed(sprite.fps(), 2) +
-      " frames a second; mode " + escaped(report.mode) + ".</p>\n<h2>What to film next</h2><ul>";
+  const std::string title = escape_html(sprite.data().name);
+  std::string page = "<!doctype html><html lang='en'><meta charset='utf-8'><title>" + title +
+                     "</title>" + kStyle + "\n<h1>" + title + "</h1>\n<p>" +
+                     std::to_string(sprite.samples().size()) + " samples, " +
+                     fixed(kept_seconds(sprite)) + " s of film in use at " +
+                     fixed(sprite.fps(), 2) + " frames a second; mode " + escape_html(report.mode) +
+                     ".</p>\n<h2>What to film next</h2><ul>";
   for (const std::string& sentence : report.advice.film)
-    page += "<li>" + escaped(sentence) + "</li>";
+    page += "<li>" + escape_html(sentence) + "</li>";
   page +=
       "</ul>\n<h2>Frames to turn</h2><p>From the key to the path that fits it, median; below, "
       "the dearest jump on the way (1 is the threshold).</p>" +

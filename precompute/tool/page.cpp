@@ -10,19 +10,6 @@ namespace {
 constexpr std::string_view kPackPlace = "@VSPRITE_PACK@";
 constexpr std::string_view kTitlePlace = "@VSPRITE_TITLE@";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string base64(std::span<const std::uint8_t> bytes) {
@@ -40,6 +27,21 @@ std::string base64(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
+std::string escape_html(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else if (c == '\'')
+      out += "&#39;";
+    else
+      out += c;
+  }
+  return out;
+}
+
 Result<std::string> make_page(const std::string& page, const std::string& name,
                               std::span<const std::uint8_t> pack, const std::string& title) {
   const std::size_t pack_at = page.find(kPackPlace), title_at = page.find(kTitlePlace);
@@ -48,7 +50,7 @@ Result<std::string> make_page(const std::string& page, const std::string& name,
                  name + ": is no page for a pack, the place " + std::string(kPackPlace) +
                      " is due in it: player.html of a build with VSPRITE_WEB=ON"};
   const std::size_t after_title = title_at + kTitlePlace.size();
-  return page.substr(0, title_at) + escaped(title) +
+  return page.substr(0, title_at) + escape_html(title) +
          page.substr(after_title, pack_at - after_title) + base64(pack) +
          page.substr(pack_at + kPackPlace.size());
 }

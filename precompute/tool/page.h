@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vsprite/result.h"
@@ -16,6 +17,8 @@ namespace vsprite {
 
 /// As data URIs take them.
 std::string base64(std::span<const std::uint8_t> bytes);
+/// As text and attributes of HTML hold it.
+std::string escape_html(std::string_view text);
 
 /// The template's text with the pack and the title in their places. `name`: of the template, stands
 /// in messages. Errors: BadContent (a file that is no such template).
