@@ -12,6 +12,7 @@
 
 #include "vsprite/exit_code.h"
 #include "vsprite/result.h"
+#include "vsprite/session.h"
 #include "vsprite/show.h"
 
 namespace vsprite::games {
@@ -89,6 +90,17 @@ inline Result<Arguments> parse_arguments(int argc, char** argv, const std::strin
   }
   if (out.pack.empty()) out.pack = default_pack;
   return out;
+}
+
+/// What the arguments say about a run.
+inline SessionConfig session_config(const char* title, double fps, const Arguments& arguments) {
+  return {.title = title,
+          .fps = fps,
+          .headless = arguments.headless,
+          .full_screen = arguments.full_screen,
+          .frames = arguments.frames,
+          .keys = arguments.keys,
+          .record = arguments.record};
 }
 
 /// The whole of a game's main: parses, plays, says what went wrong.

@@ -190,18 +190,13 @@ class Game {
 Result<void> play(const vsprite::games::Arguments& arguments, const Options& options) {
   const Result<Sprite> sprite = vsprite::load_pack(arguments.pack);
   if (!sprite) return sprite.error();
-  Result<Session> session = Session::open(
-      {.title = "aquarium",
-       .width = options.width,
-       .height = options.height,
-       .resolution = options.quality ? resolution_of(*options.quality, options.height) : 1.0f,
-       .fps = sprite->fps(),
-       .headless = arguments.headless,
-       .full_screen = arguments.full_screen,
-       .frames = arguments.frames,
-       .keys = arguments.keys,
-       .record = arguments.record,
-       .renderer = {.dither = true}});
+  vsprite::SessionConfig config =
+      vsprite::games::session_config("aquarium", sprite->fps(), arguments);
+  config.width = options.width;
+  config.height = options.height;
+  if (options.quality) config.resolution = resolution_of(*options.quality, options.height);
+  config.renderer = {.dither = true};
+  Result<Session> session = Session::open(config);
   if (!session) return session.error();
   Result<Scene> scene = Scene::make(session->renderer());
   if (!scene) return scene.error();

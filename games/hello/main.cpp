@@ -25,13 +25,7 @@ void wrap(Actor& actor, const Renderer& screen, float margin) {
 Result<void> run_hello(const games::Arguments& arguments) {
   const Result<Sprite> sprite = load_pack(arguments.pack);
   if (!sprite) return sprite.error();
-  Result<Session> session = Session::open({.title = "hello",
-                                           .fps = sprite->fps(),
-                                           .headless = arguments.headless,
-                                           .full_screen = arguments.full_screen,
-                                           .frames = arguments.frames,
-                                           .keys = arguments.keys,
-                                           .record = arguments.record});
+  Result<Session> session = Session::open(games::session_config("hello", sprite->fps(), arguments));
   if (!session) return session.error();
 
   Renderer& screen = session->renderer();

@@ -118,13 +118,7 @@ Result<void> run_maze(const games::Arguments& arguments) {
   if (!sprite) return sprite.error();
   Result<std::vector<PackClip>> clips = load_clips(arguments.pack, *sprite);
   if (!clips) return clips.error();
-  Result<Session> session = Session::open({.title = "maze",
-                                           .fps = sprite->fps(),
-                                           .headless = arguments.headless,
-                                           .full_screen = arguments.full_screen,
-                                           .frames = arguments.frames,
-                                           .keys = arguments.keys,
-                                           .record = arguments.record});
+  Result<Session> session = Session::open(games::session_config("maze", sprite->fps(), arguments));
   if (!session) return session.error();
 
   Renderer& screen = session->renderer();

@@ -156,13 +156,8 @@ Result<void> run_puppet(const games::Arguments& arguments, int scene) {
   if (!puppets) return puppets.error();
   const Result<Cast> cast = find_cast(*puppets, arguments.pack);
   if (!cast) return cast.error();
-  Result<Session> session = Session::open({.title = "puppet",
-                                           .fps = kTicksPerSecond,
-                                           .headless = arguments.headless,
-                                           .full_screen = arguments.full_screen,
-                                           .frames = arguments.frames,
-                                           .keys = arguments.keys,
-                                           .record = arguments.record});
+  Result<Session> session =
+      Session::open(games::session_config("puppet", kTicksPerSecond, arguments));
   if (!session) return session.error();
 
   Renderer& screen = session->renderer();
