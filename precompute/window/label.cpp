@@ -5,8 +5,7 @@
 #include "window/label.h"
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
+#include <optional>
 
 #include "vsprite/draw.h"
 #include "vsprite/sdl.h"
@@ -19,15 +18,18 @@ namespace {
 using window::LabelAction;
 using window::LabelKeys;
 using window::LabelLook;
-using window::Overlay;
 
-constexpr double kShortestFrame = 1.0 / 61;
-class Sitting {
+class Sitting : public window::Scene {
  public:
   Sitting(LabelSession& session, LabelKeys keys, const LabelWindowOptions& options)
       : session_(session), keys_(keys), options_(options), view_(session) {}
 
-  Result<void> run(Window& window, Renderer& renderer);
+  /// Before the first picture.
+  Result<void> begin() { return view_.show(); }
+  bool is_closed() const override { return closed_; }
+  Result<void> press(int key) override;
+  void draw(Renderer& renderer, double passed, float ui_scale) override;
+  Result<void> act_on_click() override;
 
  private:
   Result<void> act(LabelAction action);
@@ -39,6 +41,7 @@ class Sitting {
   const LabelWindowOptions& options_;
   window::LabelView view_;
   LabelLook look_;
+  std::optional<LabelAction> clicked_;
   bool closed_ = false;
 };
 
@@ -94,35 +97,16 @@ Result<void> Sitting::act(LabelAction action) {
   return {};
 }
 
-Result<void> Sitting::run(Window& window, Renderer& renderer) {
-  Overlay overlay(window);
-  if (auto shown = view_.show(); !shown) return shown;
-  double last = window.seconds();
-  for (int drawn = 0; window.pump() && !closed_; ++drawn) {
-    if (options_.frames > 0 && drawn >= options_.frames) break;
-    for (const int key : overlay.take_keys())
-      if (const auto action = keys_.action_of(key))
-        if (auto done = act(*action); !done) return done;
-    const double now = window.seconds();
-    const double passed = options_.headless ? 1.0 / 60 : std::min(now - last, 0.1);
-    last = now;
-    renderer.begin_frame(window.width(), window.height());
-    overlay.begin();
-    const auto clicked = view_.draw(renderer, keys_, look_, passed, Overlay::ui_scale(window));
-    renderer.end_frame(window.width(), window.height());
-    overlay.end();
-    const bool last_picture = options_.frames > 0 && drawn + 1 == options_.frames;
-    if (last_picture && !options_.screenshot.empty())
-      if (auto saved = window::save_window(window, options_.screenshot); !saved) return saved;
-    window.swap();
-    if (clicked)
-      if (auto done = act(*clicked); !done) return done;
-    const double spent = window.seconds() - now;
-    if (!options_.headless && spent < kShortestFrame)
-      std::this_thread::sleep_for(std::chrono::duration<double>(kShortestFrame - spent));
-  }
-  return {};
+Result<void> Sitting::press(int key) {
+  const auto action = keys_.action_of(key);
+  return action ? act(*action) : Result<void>();
 }
+
+void Sitting::draw(Renderer& renderer, double passed, float ui_scale) {
+  clicked_ = view_.draw(renderer, keys_, look_, passed, ui_scale);
+}
+
+Result<void> Sitting::act_on_click() { return clicked_ ? act(*clicked_) : Result<void>(); }
 
 }  // namespace
 
@@ -138,7 +122,10 @@ Result<void> label_window(LabelSession& session, const LabelWindowOptions& optio
                  window.error().message + "; or give the answers without one: --answers FILE"};
   auto renderer = make_renderer(Window::gl_function);
   if (!renderer) return renderer.error();
-  return Sitting(session, *keys, options).run(*window, *renderer);
+  Sitting sitting(session, *keys, options);
+  if (auto shown = sitting.begin(); !shown) return shown;
+  return window::run_scene(*window, *renderer, sitting,
+                           {options.headless, options.frames, options.screenshot});
 }
 
 }  // namespace vsprite

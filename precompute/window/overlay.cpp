@@ -9,7 +9,9 @@
 #include <imgui_impl_sdl.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "vsprite/record.h"
 
@@ -98,6 +100,35 @@ Result<void> save_window(const Window& window, const std::string& path) {
                      picture.rgba.begin() + static_cast<std::ptrdiff_t>(b * row));
   for (std::size_t at = 3; at < picture.rgba.size(); at += 4) picture.rgba[at] = 255;
   return save_png(path, picture);
+}
+
+Result<void> run_scene(Window& window, Renderer& renderer, Scene& scene,
+                       const LoopOptions& options) {
+  constexpr double kShortestFrame = 1.0 / 61;
+  Overlay overlay(window);
+  double last = window.seconds();
+  for (int drawn = 0; window.pump() && !scene.is_closed(); ++drawn) {
+    if (options.frames > 0 && drawn >= options.frames) break;
+    for (const int key : overlay.take_keys())
+      if (auto done = scene.press(key); !done) return done;
+    const double now = window.seconds();
+    const double passed = options.headless ? 1.0 / 60 : std::min(now - last, 0.1);
+    last = now;
+    renderer.begin_frame(window.width(), window.height());
+    overlay.begin();
+    scene.draw(renderer, passed, Overlay::ui_scale(window));
+    renderer.end_frame(window.width(), window.height());
+    overlay.end();
+    const bool last_picture = options.frames > 0 && drawn + 1 == options.frames;
+    if (last_picture && !options.screenshot.empty())
+      if (auto saved = save_window(window, options.screenshot); !saved) return saved;
+    window.swap();
+    if (auto done = scene.act_on_click(); !done) return done;
+    const double spent = window.seconds() - now;
+    if (!options.headless && spent < kShortestFrame)
+      std::this_thread::sleep_for(std::chrono::duration<double>(kShortestFrame - spent));
+  }
+  return {};
 }
 
 }  // namespace vsprite::window

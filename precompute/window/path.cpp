@@ -6,9 +6,8 @@
 
 #include <SDL_keycode.h>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
+#include <optional>
 
 #include "tool/files.h"
 #include "vsprite/draw.h"
@@ -19,11 +18,8 @@
 namespace vsprite {
 namespace {
 
-using window::Overlay;
 using window::PathAction;
 using window::PathLook;
-
-constexpr double kShortestFrame = 1.0 / 61;
 
 /// With Ctrl or without.
 std::optional<PathAction> action_of(int key) {
@@ -63,7 +59,7 @@ std::vector<Vec2> on_floor(std::vector<Vec2> points, const PathPicture& picture)
   return points;
 }
 
-class Drawing {
+class Drawing : public window::Scene {
  public:
   Drawing(const Sprite& sprite, PathEdit& edit, const PathWindowOptions& options)
       : edit_(edit),
@@ -71,7 +67,10 @@ class Drawing {
         view_(sprite, options),
         search_(sprite, options.weights, options.beam, options.jobs) {}
 
-  Result<void> run(Window& window, Renderer& renderer);
+  bool is_closed() const override { return closed_; }
+  Result<void> press(int key) override;
+  void draw(Renderer& renderer, double passed, float ui_scale) override;
+  Result<void> act_on_click() override;
 
  private:
   void act(PathAction action);
@@ -84,6 +83,7 @@ class Drawing {
   window::PathView view_;
   window::PathSearch search_;
   PathLook look_;
+  std::optional<PathAction> clicked_;
   std::vector<Vec2> asked_;  ///< the path that is searched
   bool pending_ = false;     ///< nothing was found for it yet
   bool warned_ = false, closed_ = false;
@@ -168,31 +168,18 @@ void Drawing::follow_search() {
   look_.progress = search_.progress();
 }
 
-Result<void> Drawing::run(Window& window, Renderer& renderer) {
-  Overlay overlay(window);
-  double last = window.seconds();
-  for (int drawn = 0; window.pump() && !closed_; ++drawn) {
-    if (options_.frames > 0 && drawn >= options_.frames) break;
-    for (const int key : overlay.take_keys())
-      if (const auto action = action_of(key)) act(*action);
-    follow_search();
-    const double now = window.seconds();
-    const double passed = options_.headless ? 1.0 / 60 : std::min(now - last, 0.1);
-    last = now;
-    renderer.begin_frame(window.width(), window.height());
-    overlay.begin();
-    const auto clicked = view_.draw(renderer, edit_, look_, passed, Overlay::ui_scale(window));
-    renderer.end_frame(window.width(), window.height());
-    overlay.end();
-    const bool last_picture = options_.frames > 0 && drawn + 1 == options_.frames;
-    if (last_picture && !options_.screenshot.empty())
-      if (auto saved = window::save_window(window, options_.screenshot); !saved) return saved;
-    window.swap();
-    if (clicked) act(*clicked);
-    const double spent = window.seconds() - now;
-    if (!options_.headless && spent < kShortestFrame)
-      std::this_thread::sleep_for(std::chrono::duration<double>(kShortestFrame - spent));
-  }
+Result<void> Drawing::press(int key) {
+  if (const auto action = action_of(key)) act(*action);
+  return {};
+}
+
+void Drawing::draw(Renderer& renderer, double passed, float ui_scale) {
+  follow_search();
+  clicked_ = view_.draw(renderer, edit_, look_, passed, ui_scale);
+}
+
+Result<void> Drawing::act_on_click() {
+  if (clicked_) act(*clicked_);
   return {};
 }
 
@@ -209,7 +196,9 @@ Result<void> path_window(const Sprite& sprite, PathEdit& edit, const PathWindowO
                                           "--script FILE"};
   auto renderer = make_renderer(Window::gl_function);
   if (!renderer) return renderer.error();
-  return Drawing(sprite, edit, options).run(*window, *renderer);
+  Drawing drawing(sprite, edit, options);
+  return window::run_scene(*window, *renderer, drawing,
+                           {options.headless, options.frames, options.screenshot});
 }
 
 }  // namespace vsprite
