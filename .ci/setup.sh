@@ -8,7 +8,8 @@ build="$here/build/release"
 play_packages="g++ cmake ninja-build pkg-config libsdl2-dev libgl-dev libpng-dev libzstd-dev
   libxxhash-dev libavformat-dev libavcodec-dev libswscale-dev libeigen3-dev libtbb-dev libhwy-dev
   libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libimgui-dev fonts-dejavu-core ffmpeg"
-test_packages="$play_packages libgtest-dev liblinear-dev strace xvfb xauth xdotool luajit love python3"
+test_packages="$play_packages libgtest-dev liblinear-dev strace xvfb xauth xdotool luajit love python3
+  python3-pil godot3-server"
 
 say() { printf '\033[1m==>\033[0m %s\n' "$*"; }
 [ -t 1 ] && [ -z "${NO_COLOR:-}" ] || say() { printf '==> %s\n' "$*"; }

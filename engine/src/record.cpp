@@ -12,10 +12,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -109,6 +111,88 @@ bool ends_with(const std::string& text, std::string_view ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+/// What a film's ending stands for: ffmpeg's words for it.
+struct FilmKind {
+  std::string_view ending;
+  bool has_alpha;
+  bool halves_colour;  ///< one colour for four pixels: clear ones must not be black
+  bool cuts_alpha;     ///< a pixel is opaque or clear
+  std::vector<std::string> words;
+};
+
+std::optional<FilmKind> kind_of(const std::string& path) {
+  // A GIF has 256 colours, one of them clear: the palette is that of the whole film, and not
+  // dithered, since dots that change with every frame are seen more than a step between two shades.
+  // (-gifflags 0: ffmpeg 5.1's own savings lose opaque pixels of films with clear ones.)
+  const FilmKind kinds[] = {{".mp4",
+                             false,
+                             false,
+                             false,
+                             {"-c:v", "libx264", "-preset", "veryfast", "-crf", "16", "-pix_fmt",
+                              "yuv420p", "-movflags", "+faststart", "-f", "mp4"}},
+                            {".mkv",
+                             true,
+                             false,
+                             false,
+                             {"-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgra", "-f", "matroska"}},
+                            {".webm",
+                             true,
+                             true,
+                             false,
+                             {"-c:v", "libvpx-vp9", "-pix_fmt", "yuva420p", "-crf", "18", "-b:v",
+                              "0", "-auto-alt-ref", "0", "-cpu-used", "3", "-f", "webm"}},
+                            {".apng",
+                             true,
+                             false,
+                             false,
+                             {"-c:v", "apng", "-pix_fmt", "rgba", "-plays", "0", "-f", "apng"}},
+                            {".gif",
+                             true,
+                             false,
+                             true,
+                             {"-filter_complex",
+                              "split[a][b];[a]palettegen=reserve_transparent=1[p];"
+                              "[b][p]paletteuse=dither=none:alpha_threshold=128",
+                              "-gifflags", "0", "-loop", "0", "-f", "gif"}}};
+  for (const FilmKind& kind : kinds)
+    if (ends_with(path, kind.ending)) return kind;
+  return {};
+}
+
+/// Gives clear pixels of straight-alpha rows the colour of the nearest one in their row, and rows
+/// without one that of the row before: what is coded for several pixels at once then has the
+/// colour of those that are seen.
+void spread_colours(std::vector<std::uint8_t>& rgba, int width) {
+  const std::size_t row = std::size_t{4} * static_cast<std::size_t>(width);
+  const auto fill_row = [&](std::uint8_t* p) {
+    const std::uint8_t* last = nullptr;
+    for (std::size_t x = 0, from = 0; x <= row; x += 4) {
+      if (x < row && p[x + 3] == 0) continue;
+      for (std::size_t k = from; k < x; k += 4) {  // a clear stretch [from, x)
+        const bool left = last != nullptr && (x == row || k - from < x - k);
+        if (!left && x == row) return false;
+        std::memcpy(p + k, left ? last : p + x, 3);
+      }
+      if (x < row) last = p + x;
+      from = x + 4;
+    }
+    return true;
+  };
+  const std::size_t rows = rgba.size() / row;
+  std::size_t first = rows;  // that has a colour
+  for (std::size_t y = 0; y < rows; ++y) {
+    if (fill_row(rgba.data() + y * row)) {
+      first = std::min(first, y);
+    } else if (first < rows) {
+      for (std::size_t x = 0; x < row; x += 4)
+        std::memcpy(rgba.data() + y * row + x, rgba.data() + (y - 1) * row + x, 3);
+    }
+  }
+  for (std::size_t y = 0; first < rows && y < first; ++y)
+    for (std::size_t x = 0; x < row; x += 4)
+      std::memcpy(rgba.data() + y * row + x, rgba.data() + first * row + x, 3);
+}
+
 Error system_error(ErrorCode code, const std::string& path, const char* what) {
   return {code, path + ": " + what + ": " + std::strerror(errno)};
 }
@@ -117,6 +201,7 @@ Error system_error(ErrorCode code, const std::string& path, const char* what) {
 
 struct FilmWriter::Impl {
   std::string path, part, log;
+  FilmKind kind;
   int width = 0, height = 0, channels = 3, pipe = -1;
   pid_t child = -1;
   std::vector<std::uint8_t> row_bytes;
@@ -146,13 +231,8 @@ Result<void> FilmWriter::Impl::start(double fps) {
                                     "-s",       size,       "-r",
                                     rate,       "-i",       "pipe:0",
                                     "-an"};
-  const std::vector<std::string> opaque = {"-c:v",      "libx264",    "-preset",  "veryfast",
-                                           "-crf",      "16",         "-pix_fmt", "yuv420p",
-                                           "-movflags", "+faststart", "-f",       "mp4"};
-  const std::vector<std::string> clear = {"-c:v",     "ffv1", "-level", "3",
-                                          "-pix_fmt", "bgra", "-f",     "matroska"};
-  const auto& kind = channels == 4 ? clear : opaque;
-  words.insert(words.end(), kind.begin(), kind.end());
+  words.insert(words.end(), kind.words.begin(), kind.words.end());
+  for (const char* word : {"-fflags", "+bitexact", "-flags:v", "+bitexact"}) words.push_back(word);
   words.push_back(part);
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
@@ -221,10 +301,11 @@ Result<void> FilmWriter::open(const std::string& path, int width, int height, do
   }
   auto impl = std::make_unique<Impl>();
   impl->path = path;
-  const bool has_alpha = ends_with(path, ".mkv");
-  impl->channels = has_alpha ? 4 : 3;
-  impl->width = has_alpha ? width : width & ~1;
-  impl->height = has_alpha ? height : height & ~1;
+  auto kind = kind_of(path);
+  impl->kind = kind ? std::move(*kind) : *kind_of(".mp4");
+  impl->channels = impl->kind.has_alpha ? 4 : 3;
+  impl->width = impl->kind.has_alpha ? width : width & ~1;
+  impl->height = impl->kind.has_alpha ? height : height & ~1;
   const std::string part = beside(path, ".part");
   const int trial = ::open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   if (trial < 0) return system_error(ErrorCode::CannotCreate, path, "cannot create the film");
@@ -246,6 +327,10 @@ Result<void> FilmWriter::add(ImageView frame) {
     for (int x = 0; x < m.width; ++x, in += 4, out += m.channels)
       std::memcpy(out, in, static_cast<std::size_t>(m.channels));
   }
+  if (m.kind.cuts_alpha)
+    for (std::size_t a = 3; a < m.row_bytes.size(); a += 4)
+      m.row_bytes[a] = m.row_bytes[a] < 128 ? 0 : 255;
+  if (m.kind.halves_colour) spread_colours(m.row_bytes, m.width);
   const PipeGuard guard;
   if (write_all(m.pipe, m.row_bytes.data(), m.row_bytes.size())) return {};
   m.wait_for_child();

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <numeric>
 
+#include "tool/atlas.h"
 #include "tool/files.h"
+#include "tool/page.h"
 #include "tool/settings.h"
 #include "vsprite/actor.h"
 #include "vsprite/policy.h"
@@ -18,105 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPageSide = 2048;
-constexpr int kGap = 1;  // px around a picture, so that a filter finds nothing of its neighbour
-
-// Where a picture lies in the atlas.
-struct Place {
-  int page = 0, x = 0, y = 0;
-};
-struct Page {
-  int width = 0, height = 0;
-};
-struct Atlas {
-  std::vector<Place> places;  // (n)
-  std::vector<Page> pages;
-};
-
-// Shelves: the tallest first, one beside the other, then the next row, then the next page.
-Result<Atlas> arrange(const SpriteData& data) {
-  Atlas atlas;
-  atlas.places.resize(data.samples.size());
-  std::vector<std::size_t> order(data.samples.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return data.samples[a].height > data.samples[b].height;
-  });
-  int x = kGap, y = kGap, shelf = 0;
-  atlas.pages.push_back({});
-  for (const std::size_t i : order) {
-    const int width = data.samples[i].width, height = data.samples[i].height;
-    if (width + 2 * kGap > kPageSide || height + 2 * kGap > kPageSide)
-      return Error{ErrorCode::LimitExceeded, data.name + ": a picture of " + std::to_string(width) +
-                                                 "x" + std::to_string(height) +
-                                                 " px, a page holds " +
-                                                 std::to_string(kPageSide - 2 * kGap) +
-                                                 ": build it with a smaller --max-size"};
-    if (x + width + kGap > kPageSide) x = kGap, y += shelf + kGap, shelf = 0;
-    if (y + height + kGap > kPageSide) {
-      atlas.pages.push_back({});
-      x = y = kGap, shelf = 0;
-    }
-    atlas.places[i] = {static_cast<int>(atlas.pages.size()) - 1, x, y};
-    x += width + kGap;
-    shelf = std::max(shelf, height);
-    atlas.pages.back().width = std::max(atlas.pages.back().width, x);
-    atlas.pages.back().height = std::max(atlas.pages.back().height, y + height + kGap);
-  }
-  return atlas;
-}
-
-std::string numbered(const char* stem, std::size_t number, int digits) {
-  char name[64];
-  std::snprintf(name, sizeof name, "%s-%0*zu.png", stem, digits, number);
-  return name;
-}
-
-Result<Image> straight_picture(const ExportJob& job, std::size_t k) {
-  Image image;
-  if (auto ok = job.film.decode_frame(job.choice.from[k], image); !ok) return ok.error();
-  unpremultiply(image);
-  return image;
-}
-
-// The pages as page-0.png ... in the folder.
-Result<void> write_pages(const ExportJob& job, const Atlas& atlas) {
-  std::size_t done = 0;
-  for (std::size_t p = 0; p < atlas.pages.size(); ++p) {
-    const Page& page = atlas.pages[p];
-    Image canvas{page.width, page.height,
-                 std::vector<std::uint8_t>(std::size_t{4} * static_cast<std::size_t>(page.width) *
-                                           static_cast<std::size_t>(page.height))};
-    for (std::size_t k = 0; k < atlas.places.size(); ++k) {
-      const Place& at = atlas.places[k];
-      if (static_cast<std::size_t>(at.page) != p) continue;
-      const auto picture = straight_picture(job, k);
-      if (!picture) return picture.error();
-      for (int row = 0; row < picture->height; ++row)
-        std::copy_n(picture->rgba.begin() + std::ptrdiff_t{4} * row * picture->width,
-                    4 * picture->width,
-                    canvas.rgba.begin() + std::ptrdiff_t{4} * ((at.y + row) * page.width + at.x));
-      if (job.progress)
-        job.progress(static_cast<double>(++done) / static_cast<double>(atlas.places.size()));
-    }
-    const std::string path = (fs::path(job.output) / numbered("page", p, 1)).string();
-    if (auto saved = save_png(path, canvas); !saved) return saved;
-  }
-  return {};
-}
-
 Json pages_json(const Atlas& atlas) {
   Json pages = Json::array();
   for (std::size_t p = 0; p < atlas.pages.size(); ++p)
-    pages.push_back({{"file", numbered("page", p, 1)},
+    pages.push_back({{"file", numbered_png("page", p)},
                      {"width", atlas.pages[p].width},
                      {"height", atlas.pages[p].height}});
   return pages;
-}
-
-Result<void> write_json(const ExportJob& job, const std::string& name, const Json& document) {
-  return write_file((fs::path(job.output) / name).string(),
-                    document.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n");
 }
 
 Json report(const ExportJob& job, std::size_t pages) {
@@ -124,11 +33,12 @@ Json report(const ExportJob& job, std::size_t pages) {
 }
 
 Result<Json> write_table(const ExportJob& job) {
-  const auto atlas = arrange(job.choice.data);
+  const auto atlas = arrange_atlas(job.choice.data.name, job.choice.data.samples);
   if (!atlas) return atlas.error();
-  if (auto wrote = write_pages(job, *atlas); !wrote) return wrote.error();
+  if (auto wrote = write_atlas(job.film, job.choice.from, *atlas, job.output, job.progress); !wrote)
+    return wrote.error();
   std::vector<Json> places;
-  for (const Place& at : atlas->places)
+  for (const AtlasPlace& at : atlas->places)
     places.push_back({{"page", at.page}, {"x", at.x}, {"y", at.y}});
   Json document = character_json(job.choice.data, places);
   document["pages"] = pages_json(*atlas);
@@ -140,9 +50,9 @@ Result<Json> write_png_sequence(const ExportJob& job) {
   std::vector<Json> places;
   const std::size_t count = job.choice.from.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const auto picture = straight_picture(job, k);
+    const auto picture = straight_picture(job.film, job.choice.from[k]);
     if (!picture) return picture.error();
-    const std::string name = numbered("sample", k, 6);
+    const std::string name = numbered_png("sample", k, 6);
     if (auto saved = save_png((fs::path(job.output) / name).string(), *picture); !saved)
       return saved.error();
     places.push_back({{"file", name}});
@@ -153,9 +63,43 @@ Result<Json> write_png_sequence(const ExportJob& job) {
   return report(job, 0);
 }
 
+std::string megabytes(double bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f MB", bytes / 1e6);
+  return text;
+}
+
+Result<Json> write_page(const ExportJob& job) {
+  const auto pack = read_file(job.pack);
+  if (!pack) return pack.error();
+  const auto place = job.page.empty() ? find_player_page() : job.page;
+  if (!place) return place.error();
+  const auto text = read_file(*place);
+  if (!text) return text.error();
+  const auto page =
+      make_page(*text, *place, {reinterpret_cast<const std::uint8_t*>(pack->data()), pack->size()},
+                job.film.data().name);
+  if (!page) return page.error();
+  if (static_cast<double>(page->size()) > job.page_limit * 1e6)
+    return Error{ErrorCode::LimitExceeded,
+                 job.pack + ": a page of " + megabytes(static_cast<double>(page->size())) +
+                     " would come of it, at most " + megabytes(job.page_limit * 1e6) +
+                     " are wanted: build the sprite smaller (--max-size 128), or raise --limit"};
+  if (auto wrote = write_file(job.output, *page); !wrote) return wrote.error();
+  return Json{{"file", job.output}, {"bytes", page->size()}, {"pack_bytes", pack->size()}};
+}
+
 constexpr ExportFormat kFormats[] = {
-    {"table", "atlas pages and character.json: one lookup a frame steers it", write_table},
-    {"png-seq", "one PNG a sample, and the same character.json", write_png_sequence},
+    {"html", ExportNeed::Pack, write_page},
+    {"table", ExportNeed::Samples, write_table},
+    {"png-seq", ExportNeed::Samples, write_png_sequence},
+    {"sheet+aseprite-json", ExportNeed::Runs, write_aseprite},
+    {"texturepacker-json", ExportNeed::Runs, write_texture_packer},
+    {"godot-tres", ExportNeed::Runs, write_godot},
+    {"apng", ExportNeed::Runs, write_apngs},
+    {"gif", ExportNeed::Runs, write_gifs},
+    {"webm", ExportNeed::Runs, write_webms},
+    {"mkv-ffv1", ExportNeed::Runs, write_ffv1s},
 };
 
 // One command's tables in one mode, made by the engine's own step.
@@ -205,24 +149,36 @@ Json mode_json(const Sprite& sprite, int m) {
 
 std::span<const ExportFormat> export_formats() { return kFormats; }
 
+std::string export_names() {
+  std::string all;
+  for (const ExportFormat& format : kFormats)
+    all += (all.empty() ? "" : "|") + std::string(format.name);
+  return all;
+}
+
 Result<const ExportFormat*> find_export_format(const std::string& name) {
   std::vector<std::string> names;
-  std::string all;
   for (const ExportFormat& format : kFormats) {
     if (format.name == name) return &format;
     names.emplace_back(format.name);
-    all += (all.empty() ? "" : ", ") + names.back();
   }
   const std::string near = nearest_name(name, names);
-  return Error{
-      ErrorCode::BadSetting,
-      (name.empty() ? std::string("--to FORMAT is due") : "--to " + name + ": no such format") +
-          (near.empty() ? ": " + all : ": did you mean `" + near + "`?")};
+  return Error{ErrorCode::BadSetting,
+               (name.empty() ? std::string("--to is due") : "--to " + name + ": no such format") +
+                   (near.empty() ? ": " + export_names() : ": did you mean `" + near + "`?")};
+}
+
+Result<void> write_json(const ExportJob& job, const std::string& name, const Json& document) {
+  return write_file((fs::path(job.output) / name).string(),
+                    document.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n");
 }
 
 Result<SampleChoice> choose_for_export(const Sprite& sprite, int limit, std::uint64_t seed,
                                        int jobs) {
   SpriteData data = sprite.data();
+  const auto kept = [](const Sample& s) { return s.kept == 1; };
+  if (std::none_of(data.samples.begin(), data.samples.end(), kept))
+    return Error{ErrorCode::BadContent, data.name + ": no samples of a film are in it"};
   for (ControlMode& mode : data.modes) mode.plays_through = false;
   ChoiceConfig config{.seed = seed, .jobs = jobs};
   config.limit = limit > 0 ? limit : static_cast<double>(data.samples.size());

@@ -3,8 +3,9 @@
 //
 // tool/export.h - a pack for programs that know nothing of this one (precompute/EXPORTS.md).
 //
-// A format is a name and a function that fills a folder; `export_formats` is the list of them.
-// Before it is called the samples are chosen (control/choose.h) and solved again.
+// A format is a name and a function that fills a folder or a file; `export_formats` is the one list
+// of them. Before it is called the samples are chosen (control/choose.h) and solved again, and what
+// is played is laid down (tool/played.h), where the format wants it.
 #pragma once
 
 #include <functional>
@@ -13,6 +14,7 @@
 #include <string_view>
 
 #include "control/choose.h"
+#include "tool/played.h"
 #include "tool/project.h"
 #include "vsprite/sprite.h"
 
@@ -20,31 +22,54 @@ namespace vsprite {
 
 /// What is exported. Borrows `film`.
 struct ExportJob {
-  const Sprite& film;                    ///< the whole pack, which has the pictures
-  SampleChoice choice;                   ///< `choice.from` are samples of `film`
-  std::string output;                    ///< the folder, which exists
-  std::function<void(double)> progress;  ///< 0..1; may be empty
+  const Sprite& film;                      ///< the whole pack, which has the pictures
+  SampleChoice choice{};                   ///< `choice.from` are samples of `film`
+  std::vector<PlayedRun> runs{};           ///< of samples of `choice`
+  std::string output{};                    ///< the folder, which exists; or the file
+  std::function<void(double)> progress{};  ///< 0..1; may be empty
+  int godot = 4;                           ///< 3 or 4
+  std::string pack{};                      ///< html: the pack's file
+  std::string page{};                      ///< html: the template; empty: the installation's
+  double page_limit = 10;                  ///< html: MB
 };
 
+/// What a format is made from.
+enum class ExportNeed { Pack, Samples, Runs };
+
 struct ExportFormat {
-  std::string_view name;     ///< as --to says it
-  std::string_view summary;  ///< half a sentence
-  /// Returns what it wrote, for --json. Errors: CannotCreate, CannotWrite, LimitExceeded, those of
-  /// decode_frame.
+  std::string_view name;  ///< as --to says it
+  ExportNeed need;        ///< Pack: writes one file; the others: a folder
+  /// Returns what it wrote, for --json. Errors: CannotCreate, CannotWrite, LimitExceeded,
+  /// Unavailable (no ffmpeg), those of decode_frame.
   Result<Json> (*write)(const ExportJob& job);
 };
 std::span<const ExportFormat> export_formats();
+/// "html|table|...", as the options' table holds it.
+std::string export_names();
 /// Errors: BadSetting, naming the nearest one.
 Result<const ExportFormat*> find_export_format(const std::string& name);
 
 /// The samples of a pack, at most `limit` (0: all that are kept), solved again. Play-through is
 /// left out of the tables: a plain table cannot make up for the sample that it leaves out.
-/// Errors: those of choose_samples().
+/// Errors: BadContent (a pack without pictures of a film), those of choose_samples().
 Result<SampleChoice> choose_for_export(const Sprite& sprite, int limit, std::uint64_t seed,
                                        int jobs);
 
 /// The whole character as tables; "format": "vsprite-table". `places`: one object a sample, where
 /// its picture is.
 Json character_json(const SpriteData& data, const std::vector<Json>& places);
+
+// The formats. Pages and a description of their pictures:
+Result<Json> write_aseprite(const ExportJob& job);
+Result<Json> write_texture_packer(const ExportJob& job);
+Result<Json> write_godot(const ExportJob& job);
+// One moving picture a run, and runs.json:
+Result<Json> write_apngs(const ExportJob& job);
+Result<Json> write_gifs(const ExportJob& job);
+Result<Json> write_webms(const ExportJob& job);
+Result<Json> write_ffv1s(const ExportJob& job);
+
+/// Writes a JSON document into the job's folder. Errors: those of write_file.
+Result<void> write_json(const ExportJob& job, const std::string& name, const Json& document);
 
 }  // namespace vsprite

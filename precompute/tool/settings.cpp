@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "film/plate.h"
+#include "tool/export.h"
 
 namespace vsprite {
 namespace {
@@ -328,15 +329,18 @@ void add_use_options(Row& t) {
 }
 
 void add_export_options(Row& t) {
-  t.text(
-       "to", "FORMAT", &Settings::to,
-       "a web page; a folder of atlas pages and character.json; one of a PNG a sample and the same",
-       " export ", "html|table|png-seq")
+  t.text("to", "FORMAT", &Settings::to,
+         "a web page; a folder of atlas pages and tables; sheets or moving pictures of what each "
+         "direction plays",
+         " export ", t.keep(export_names()))
       .in_config = false;
   t.whole("samples", "N", &Settings::samples, 0, 1000000,
-          "table, png-seq: at most so many, chosen so that control loses least; 0 = all",
-          " export ")
+          "all but html: at most so many, chosen so that control loses least; 0 = all", " export ")
       .in_config = false;
+  t.text("order", "ORDER", &Settings::order,
+         "sheets and moving pictures: the loop that each direction plays, or clips as filmed",
+         " export ", "directions|film");
+  t.text("godot", "VERSION", &Settings::godot, "godot-tres: of which Godot", " export ", "4|3");
   t.text("template", "FILE", &Settings::page,
          "html: the page that takes the pack; default: player.html of the installation",
          " export ");

@@ -103,10 +103,12 @@ struct Settings {
   double w2 = 8;
   double tau = 0.1;
   double budget = 10;
-  std::string to;               ///< export: what it becomes
-  std::string page;             ///< export: the template; empty: the installation's
-  double page_limit = 10;       ///< MB
-  int samples = 256;            ///< export: at most; 0: all
+  std::string to;                    ///< export: what it becomes
+  std::string page;                  ///< export: the template; empty: the installation's
+  double page_limit = 10;            ///< MB
+  int samples = 256;                 ///< export: at most; 0: all
+  std::string order = "directions";  ///< export: what is played where nothing is steered
+  std::string godot = "4";
   std::uint64_t proposals = 0;  ///< 0: as many as the budget allows
   std::string resume;
   std::string clip;

@@ -7,12 +7,15 @@ find_package(nlohmann_json REQUIRED)
 pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash sqlite3)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
 target_sources(vsprite_precompute PRIVATE
+  tool/atlas.cpp
   tool/build_pack.cpp
   tool/cast.cpp
   tool/cast_file.cpp
   tool/control.cpp
   tool/files.cpp
   tool/export.cpp
+  tool/export_films.cpp
+  tool/export_sheets.cpp
   tool/film_report.cpp
   tool/keyed.cpp
   tool/label_store.cpp
@@ -23,6 +26,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/path_film.cpp
   tool/path_script.cpp
   tool/pictures.cpp
+  tool/played.cpp
   tool/preview.cpp
   tool/project.cpp
   tool/report.cpp

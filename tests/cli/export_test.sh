@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
-# A pack as a page: what goes into it, and every way to ask for it wrong. The page in a browser:
-# tests/web.
-. "$(dirname "$0")/lib.sh"
+# A pack for other places: what goes into it, what other programs read of it, and every way to ask
+# for it wrong. The page in a browser: tests/web.
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/lib.sh"
 "$BIN/tiny_pack" tiny.vsp || fail "tiny_pack"
 printf '<title>@VSPRITE_TITLE@</title>\n<script>@VSPRITE_PACK@</script>\n' >page.in
 export_page() { vsprite export tiny.vsp --to html --template page.in "$@"; }
@@ -25,8 +26,8 @@ expect 3 vsprite export tiny.vsp --to html --template empty.in; says "@VSPRITE_P
 expect 66 vsprite export tiny.vsp --to html --template absent.in; one_sentence
 expect 66 vsprite export absent.vsp --to html --template page.in; one_sentence
 expect 3 vsprite export page.in --to html --template page.in; one_sentence
-expect 2 vsprite export tiny.vsp --template page.in; says "--to is due"; one_sentence
-expect 2 vsprite export tiny.vsp --to gif; one_sentence
+expect 2 vsprite export tiny.vsp --template page.in; says "--to is due: html|"; one_sentence
+expect 2 vsprite export tiny.vsp --to gift; says "|gif|"; one_sentence
 expect 2 vsprite export --to html; says "a pack is due"; one_sentence
 expect 73 export_page -o absent/c.html; one_sentence
 
@@ -37,7 +38,50 @@ is_json /to /samples /pages /folder
 for file in character.json page-0.png; do [ -s folder/$file ] || fail "no $file"; done
 expect 0 vsprite export ring.vsp --to png-seq; prints "ring-png-seq: "
 [ -s ring-png-seq/sample-000000.png ] || fail "no pictures"
-expect 2 vsprite export ring.vsp --to tabel; says "html|table|png-seq"; one_sentence
+
+# What plays itself: read back by other programs, against the pack's own pictures.
+for format in sheet+aseprite-json texturepacker-json godot-tres apng gif webm mkv-ffv1; do
+  expect 0 vsprite export ring.vsp --to $format --json; is_json /to /samples /runs /folder
+done
+python=
+for p in python3 /usr/bin/python3; do "$p" -c 'import PIL' 2>/dev/null && python=$p && break; done
+if [ -n "$python" ] && command -v ffmpeg >/dev/null; then
+  expect 0 "$python" "$here/export_read.py" ring-png-seq ring-sheet+aseprite-json \
+    ring-texturepacker-json --films ring-apng ring-gif ring-webm ring-mkv-ffv1
+  cat stdout
+else
+  echo "skipped: no python3-pil or ffmpeg here, sheets and films are not read back"
+fi
+expect 0 vsprite export ring.vsp --to mkv-ffv1 -o again
+cmp -s ring-mkv-ffv1/runs.json again/runs.json || fail "other runs"
+for film in ring-mkv-ffv1/*.mkv; do cmp -s "$film" "again/${film##*/}" || fail "$film differs"; done
+expect 0 vsprite export ring.vsp --to sheet+aseprite-json --order film --samples 0 -o film
+grep -q '"name":"film"' film/page-0.json || fail "no film in its order"
+expect 0 vsprite export ring.vsp --to godot-tres --godot 3 -o godot
+if command -v godot3-server >/dev/null; then
+  echo 'config_version=4' >godot/project.godot
+  cat >godot/read.gd <<'END'
+extends SceneTree
+func _init():
+	var frames = load("res://character.tres")
+	for name in frames.get_animation_names():
+		var picture = frames.get_frame(name, 0)
+		print("animation ", name, " ", frames.get_frame_count(name), " ", picture.get_width())
+	print("velocity ", frames.get_meta("velocities")["right"].size())
+	quit()
+END
+  expect 0 env HOME="$room" timeout 100 godot3-server --path godot -s read.gd
+  frames=$(sed -n 's/^animation right \([0-9]*\) .*/\1/p' stdout)
+  [ "${frames:-0}" -ge 2 ] || fail "Godot 3 sees no animation"
+  prints "velocity $frames"
+else
+  echo "skipped: no godot3-server here, character.tres is not opened"
+fi
+expect 2 vsprite export ring.vsp --to godot-tres --godot 5; says "4|3"; one_sentence
+expect 2 vsprite export ring.vsp --to gif --order backwards; says "directions|film"; one_sentence
+expect 1 env PATH=/nowhere "$BIN/vsprite" export ring.vsp --to gif -o none; says "apt install ffmpeg"; one_sentence
+
+expect 2 vsprite export ring.vsp --to tabel; says "html|table|png-seq|"; one_sentence
 expect 73 vsprite export ring.vsp --to table -o absent/folder; one_sentence
 expect 66 vsprite export absent.vsp --to table; one_sentence
 no_temporaries

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "support/temp_folder.h"
@@ -38,8 +39,14 @@ class Export : public ::testing::Test {
     ASSERT_TRUE(choice) << choice.error().message;
     choice_ = std::move(*choice);
   }
+  ExportJob job(const std::string& folder) const {
+    return {.film = *sprite_,
+            .choice = choice_,
+            .runs = direction_runs(choice_.data),
+            .output = folder};
+  }
   Result<Json> write(const std::string& format) {
-    return (*find_export_format(format))->write({*sprite_, choice_, room_.path(), {}});
+    return (*find_export_format(format))->write(job(room_.path()));
   }
   // The engine's own run of the chosen samples: sample, x and y in 1/65536 px, a line a tick.
   std::string engine_run(const std::string& mode) const {
@@ -150,6 +157,67 @@ TEST_F(Export, APngForEverySample) {
   }
 }
 
+// A held direction ends in its run, and stays in it.
+TEST_F(Export, TheRunOfADirectionIsWhatTheEnginePlays) {
+  const auto sprite = make_sprite(choice_.data);
+  for (const PlayedRun& run : direction_runs(choice_.data)) {
+    if (!run.loops) continue;
+    Actor actor = make_actor(*sprite);
+    actor.sample = run.samples.front();
+    std::string name = run.name;
+    std::replace(name.begin(), name.end(), '-', '+');
+    set_direction(*sprite, actor, *parse_direction(name));
+    actor.stage = 0;
+    actor.shown = sprite->samples()[actor.sample].duration;
+    for (std::size_t k = 1; k <= 2 * run.samples.size(); ++k) {
+      step(*sprite, actor);
+      ASSERT_EQ(actor.sample, run.samples[k % run.samples.size()]) << run.name << " " << k;
+      actor.shown = sprite->samples()[actor.sample].duration;
+    }
+  }
+}
+
+TEST(Played, OfSeveralLoopsTheOneIntoWhichMostSamplesLead) {
+  // 0 <-> 1; 2 -> 3 -> 4 -> 2, and 5, 6 lead into it; 7 is not there.
+  EXPECT_EQ(most_travelled_loop({1, 0, 3, 4, 2, 4, 5, kNoSample}),
+            (std::vector<std::uint32_t>{2, 3, 4}));
+  EXPECT_EQ(most_travelled_loop({0}), std::vector<std::uint32_t>{0});
+  EXPECT_TRUE(most_travelled_loop({kNoSample}).empty());
+}
+
+TEST_F(Export, FilmRunsHoldEverySampleOnceInFilmOrder) {
+  std::vector<std::uint32_t> all;
+  for (const PlayedRun& run : film_runs(choice_.data))
+    all.insert(all.end(), run.samples.begin(), run.samples.end());
+  ASSERT_EQ(all.size(), choice_.from.size());
+  for (std::size_t k = 0; k < all.size(); ++k) EXPECT_EQ(all[k], k);
+}
+
+// A character whose pictures fill several pages: a run is never divided while a page can hold it.
+TEST_F(Export, RunsAreDealtOutToPagesWhole) {
+  for (Sample& s : choice_.data.samples) s.width = s.height = 600;
+  ExportJob big = job(room_.path());
+  big.runs.resize(2);
+  std::size_t due = 0;
+  for (const PlayedRun& run : big.runs) due += run.samples.size();
+  const auto wrote = write_aseprite(big);
+  ASSERT_TRUE(wrote) << wrote.error().message;
+  EXPECT_GT((*wrote)["pages"], 1);
+  std::size_t frames = 0, most = 0;
+  for (std::size_t p = 0; p < (*wrote)["pages"]; ++p) {
+    const Json page = Json::parse(*read_file(room_.file("page-" + std::to_string(p) + ".json")));
+    frames += page["frames"].size();
+    for (const Json& tag : page["meta"]["frameTags"])
+      most = std::max(most, tag["to"].get<std::size_t>() - tag["from"].get<std::size_t>() + 1);
+    for (const Json& frame : page["frames"]) {
+      EXPECT_LE(frame["frame"]["x"].get<int>() + 600, 2048);
+      EXPECT_LE(frame["frame"]["y"].get<int>() + 600, 2048);
+    }
+  }
+  EXPECT_EQ(frames, due);
+  EXPECT_LE(most, 9u);  // three times three to a page
+}
+
 TEST(ExportFormats, AWrongNameIsAnsweredWithTheNearest) {
   const auto format = find_export_format("tabel");
   ASSERT_FALSE(format);
@@ -158,8 +226,7 @@ TEST(ExportFormats, AWrongNameIsAnsweredWithTheNearest) {
 }
 
 TEST_F(Export, AFolderThatIsNotThereCannotBeWritten) {
-  const auto wrote =
-      (*find_export_format("table"))->write({*sprite_, choice_, room_.file("absent/folder"), {}});
+  const auto wrote = (*find_export_format("table"))->write(job(room_.file("absent/folder")));
   ASSERT_FALSE(wrote);
   EXPECT_EQ(wrote.error().code, ErrorCode::CannotCreate);
 }

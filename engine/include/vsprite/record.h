@@ -3,9 +3,15 @@
 //
 // vsprite/record.h - films and screenshots of what was drawn.
 //
-// Frames go through a pipe to the `ffmpeg` program: .mp4 is H.264 (yuv420p), .mkv is FFV1,
-// lossless, with alpha. Files are written beside their target and renamed: they appear complete, or
-// not at all.
+// Frames go through a pipe to the `ffmpeg` program. The ending says what becomes of them:
+//
+//     .mp4    H.264, 4:2:0, without alpha
+//     .mkv    FFV1, lossless, with alpha
+//     .webm   VP9, 4:2:0, with alpha; loses a little of both
+//     .apng   lossless, with alpha; plays for ever
+//     .gif    256 colours of the whole film, clear where alpha is below 128; plays for ever
+//
+// Files are written beside their target and renamed: they appear complete, or not at all.
 #pragma once
 
 #include <memory>
@@ -24,7 +30,8 @@ class FilmWriter {
   FilmWriter& operator=(FilmWriter&&) noexcept;
   ~FilmWriter();
 
-  /// `path` ends in .mp4 (odd sizes lose their last row or column: 4:2:0 needs even ones) or .mkv.
+  /// `path` has one of the endings above; another one stands for .mp4, whose odd sizes lose their
+  /// last row or column (4:2:0 needs even ones).
   /// Errors: Unavailable (no `ffmpeg` on the PATH), CannotCreate, BadSetting (size under 2, fps <=
   /// 0).
   Result<void> open(const std::string& path, int width, int height, double fps);
