@@ -9,7 +9,7 @@ here=$(dirname "$0") vsprite=$1 pack=$2 seconds=${3:-10} beams=${4:-500 5000 500
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 run() { "$vsprite" path "$pack" --script "$here/falling.toml" --json --progress none --quiet "${@:2}" >"$work/$1.json"; }
-for seed in 1 2 3; do run "replace $seed" --budget "$seconds" --seed "$seed"; done
+for seed in 1 2 3; do run "replace $seed" --seconds "$seconds" --seed "$seed"; done
 for beam in $beams; do run "beam $beam" --search beam --beam "$beam"; done
 python3 - "$work" <<'END'
 import json, math, pathlib, sys

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// The section GRND (engine/PACK.md): read apart from the sprite, and written by copying a pack.
+// The section GRND (engine/PACK.md): read apart from the sprite.
 #include "vsprite/ground.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "pack_copy.h"
+#include "pack_format.h"
 
 namespace vsprite {
 namespace {
@@ -23,26 +23,6 @@ Result<void> check(const std::string& path, const Ground& g) {
                path +
                    ": GRND: four finite numbers, the line below the horizon and a focal length "
                    "above 0 are due"};
-}
-
-Result<std::optional<Ground>> read_ground(const detail::ByteSource& source) {
-  const auto content = detail::read_table(source);
-  if (!content) return content.error();
-  const detail::SectionEntry* entry = detail::find_section(*content, "GRND");
-  if (entry == nullptr) return std::optional<Ground>();
-  if (entry->bytes != kGroundBytes)
-    return Error{ErrorCode::CorruptData,
-                 source.name() + ": GRND: " + std::to_string(entry->bytes) + " bytes: 16 are due"};
-  const auto bytes = detail::read_section(source, *entry);
-  if (!bytes) return bytes.error();
-  detail::Cursor cursor(*bytes);
-  Ground ground;
-  ground.horizon = cursor.get<float>();
-  ground.line = cursor.get<float>();
-  ground.center = cursor.get<float>();
-  ground.focal = cursor.get<float>();
-  if (auto checked = check(source.name(), ground); !checked) return checked.error();
-  return std::optional<Ground>(ground);
 }
 
 }  // namespace
@@ -66,29 +46,28 @@ Ground scaled(const Ground& g, float factor) noexcept {
 }
 
 Result<std::optional<Ground>> load_ground(const std::string& path) {
-  try {
-    const auto source = detail::ByteSource::open(path);
-    if (!source) return source.error();
-    return read_ground(*source);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::OutOfMemory, path + ": out of memory while reading its floor"};
-  }
+  const auto bytes = load_extra(path, "GRND");
+  if (!bytes) return bytes.error();
+  if (bytes->empty()) return std::optional<Ground>();
+  if (bytes->size() != kGroundBytes)
+    return Error{ErrorCode::CorruptData,
+                 path + ": GRND: " + std::to_string(bytes->size()) + " bytes: 16 are due"};
+  detail::Cursor cursor(*bytes);
+  Ground ground;
+  ground.horizon = cursor.get<float>();
+  ground.line = cursor.get<float>();
+  ground.center = cursor.get<float>();
+  ground.focal = cursor.get<float>();
+  if (auto checked = check(path, ground); !checked) return checked.error();
+  return std::optional<Ground>(ground);
 }
 
-Result<void> save_ground(const std::string& path, const Ground& ground) {
-  try {
-    if (auto checked = check(path, ground); !checked) return checked;
-    const auto source = detail::ByteSource::open(path);
-    if (!source) return source.error();
-    detail::Bytes bytes;
-    bytes.put(ground.horizon);
-    bytes.put(ground.line);
-    bytes.put(ground.center);
-    bytes.put(ground.focal);
-    return detail::copy_with_section(*source, path, "GRND", bytes.data);
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorCode::OutOfMemory, path + ": out of memory while writing its floor"};
-  }
+Result<std::vector<std::uint8_t>> encode_ground(const Ground& ground) {
+  if (auto checked = check("a floor", ground); !checked) return checked.error();
+  detail::Bytes bytes;
+  for (const float number : {ground.horizon, ground.line, ground.center, ground.focal})
+    bytes.put(number);
+  return std::move(bytes.data);
 }
 
 }  // namespace vsprite

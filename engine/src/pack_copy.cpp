@@ -74,3 +74,22 @@ Result<void> copy_with_section(const ByteSource& source, const std::string& to,
 }
 
 }  // namespace vsprite::detail
+
+namespace vsprite {
+
+Result<std::vector<std::uint8_t>> load_extra(const std::string& path, std::string_view name) {
+  try {
+    const auto source = detail::ByteSource::open(path);
+    if (!source) return source.error();
+    const auto content = detail::read_table(*source);
+    if (!content) return content.error();
+    const detail::SectionEntry* entry = detail::find_section(*content, name);
+    if (entry == nullptr) return std::vector<std::uint8_t>{};
+    return detail::read_section(*source, *entry);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory,
+                 path + ": out of memory while reading " + std::string(name)};
+  }
+}
+
+}  // namespace vsprite

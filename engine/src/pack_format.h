@@ -16,6 +16,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "file.h"
@@ -140,6 +141,16 @@ class Cursor {
     std::memcpy(&value, raw.data(), sizeof(T));
     bytes_ = bytes_.subspan(sizeof(T));
     return value;
+  }
+  /// As many as `out` holds.
+  template <class T>
+  void get_all(std::span<T> out) noexcept {
+    static_assert(std::is_arithmetic_v<T>);
+    if constexpr (std::endian::native == std::endian::big) {
+      for (T& value : out) value = get<T>();
+    } else if (!out.empty()) {
+      std::memcpy(out.data(), take(out.size_bytes()).data(), out.size_bytes());
+    }
   }
   std::span<const std::uint8_t> take(std::size_t count) noexcept {
     const auto front = bytes_.first(count);

@@ -274,7 +274,7 @@ Check read_transitions(const Section& section, SpriteData& data) {
                    number(count) + " transitions of 8 bytes, " + number(left) + " bytes are there");
   }
   data.row_start.resize(rows);
-  for (std::uint32_t& start : data.row_start) start = cursor.get<std::uint32_t>();
+  cursor.get_all(std::span(data.row_start));
   data.transitions.resize(count);
   for (Transition& t : data.transitions) {
     t.to = cursor.get<std::uint32_t>();
@@ -354,9 +354,9 @@ Check read_mode(const Section& section, SpriteData& data) {
   mode.next.resize(entries);
   mode.go.resize(entries);
   mode.arrived.resize(mode.by_state ? n : 0);
-  for (std::uint32_t& next : mode.next) next = cursor.get<std::uint32_t>();
-  for (float& go : mode.go) go = cursor.get<float>();
-  for (std::uint32_t& arrived : mode.arrived) arrived = cursor.get<std::uint32_t>();
+  cursor.get_all(std::span(mode.next));
+  cursor.get_all(std::span(mode.go));
+  cursor.get_all(std::span(mode.arrived));
   data.modes.push_back(std::move(mode));
   return {};
 }

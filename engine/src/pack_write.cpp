@@ -129,10 +129,10 @@ class PackWriter {
 
   void end(std::uint64_t sum) { sections_.back().sum = sum; }
 
-  Result<void> section(std::string_view name, const Bytes& bytes) {
+  Result<void> section(std::string_view name, std::span<const std::uint8_t> bytes) {
     if (auto begun = begin(name); !begun) return begun;
-    end(hash_bytes(bytes.data));
-    return append(bytes.data);
+    end(hash_bytes(bytes));
+    return append(bytes);
   }
 
   // Replaces the bytes of an earlier section by as many others.
@@ -194,30 +194,36 @@ Result<void> write_frames(const std::string& path, const SpriteData& data,
   return {};
 }
 
-Result<void> write_pack(const std::string& path, const SpriteData& data,
-                        const FrameSource& frames) {
+Result<void> write_pack(const std::string& path, const SpriteData& data, const FrameSource& frames,
+                        std::span<const PackExtra> extras) {
   auto file = FileWriter::create(path);
   if (!file) return file.error();
   const std::vector<OptionalSection> optional = optional_sections(data);
-  PackWriter pack(std::move(*file), 5 + data.modes.size() + optional.size());
-  if (auto done = pack.section("META", meta_bytes(data)); !done) return done;
-  if (auto done = pack.section("SAMP", sample_bytes(data)); !done) return done;
-  if (auto done = pack.section("TRAN", transition_bytes(data)); !done) return done;
+  const auto extra_count = static_cast<std::size_t>(
+      std::count_if(extras.begin(), extras.end(), [](const auto& e) { return !e.bytes.empty(); }));
+  PackWriter pack(std::move(*file), 5 + data.modes.size() + optional.size() + extra_count);
+  if (auto done = pack.section("META", meta_bytes(data).data); !done) return done;
+  if (auto done = pack.section("SAMP", sample_bytes(data).data); !done) return done;
+  if (auto done = pack.section("TRAN", transition_bytes(data).data); !done) return done;
   for (const ControlMode& mode : data.modes) {
-    if (auto done = pack.section("CTRL", mode_bytes(mode)); !done) return done;
+    if (auto done = pack.section("CTRL", mode_bytes(mode).data); !done) return done;
   }
-  for (const OptionalSection& extra : optional) {
-    if (auto done = pack.section(extra.name, extra.bytes); !done) return done;
+  for (const OptionalSection& section : optional) {
+    if (auto done = pack.section(section.name, section.bytes.data); !done) return done;
   }
   // The index stands before the pictures but is known only after them: its place is kept free.
   Bytes index;
   index.data.resize(data.samples.size() * kFrameBytes);
   const std::size_t index_section = pack.section_count();
-  if (auto done = pack.section("FIDX", index); !done) return done;
+  if (auto done = pack.section("FIDX", index.data); !done) return done;
   index.data.clear();
   if (auto done = pack.begin("FRAM"); !done) return done;
   if (auto done = write_frames(path, data, frames, pack, index); !done) return done;
   if (auto done = pack.rewrite(index_section, index); !done) return done;
+  for (const PackExtra& extra : extras) {
+    if (extra.bytes.empty()) continue;
+    if (auto done = pack.section(extra.name, extra.bytes); !done) return done;
+  }
   return pack.finish();
 }
 
@@ -246,12 +252,13 @@ Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end) {
 }
 }  // namespace detail
 
-Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames) {
+Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames,
+                       std::span<const PackExtra> extras) {
   try {
     if (detail::Check bad = detail::check_sprite_data(data)) {
       return Error{bad->error, path + ": " + bad->issue.section + ": " + bad->issue.message};
     }
-    return detail::write_pack(path, data, frames);
+    return detail::write_pack(path, data, frames, extras);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, path + ": out of memory while writing"};
   }

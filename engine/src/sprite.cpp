@@ -115,23 +115,30 @@ Check check_sample(const SpriteData& data, std::size_t i) {
   return {};
 }
 
-Check check_row(const SpriteData& data, std::uint32_t i) {
+// One byte a sample: looked up for every entry of every table.
+std::vector<std::uint8_t> kept_of(const SpriteData& data) {
+  std::vector<std::uint8_t> kept;
+  kept.reserve(data.samples.size());
+  for (const Sample& s : data.samples) kept.push_back(s.kept != 0 ? 1 : 0);
+  return kept;
+}
+
+Check check_row(const SpriteData& data, std::span<const std::uint8_t> kept, std::uint32_t i) {
   const auto row = [&](std::string_view code, const std::string& what) {
     return finding(code, "TRAN", 0, "transitions of sample " + number(i) + ": " + what);
   };
   std::int64_t before = -1;
   for (std::uint32_t k = data.row_start[i]; k < data.row_start[i + 1]; ++k) {
     const Transition& t = data.transitions[k];
-    if (t.to >= data.samples.size()) {
-      return row("transition-index",
-                 "to sample " + number(t.to) + " of " + number(data.samples.size()));
+    if (t.to >= kept.size()) {
+      return row("transition-index", "to sample " + number(t.to) + " of " + number(kept.size()));
     }
     if (t.to <= before) return row("transition-order", "not in ascending order");
     if (!std::isfinite(t.cost) || t.cost < 0) {
       return row("transition-cost",
                  "the cost to sample " + number(t.to) + " is not a finite number >= 0");
     }
-    if (data.samples[i].kept == 0 || data.samples[t.to].kept == 0) {
+    if (kept[i] == 0 || kept[t.to] == 0) {
       return row("transition-kept", "from or to a sample that was not kept");
     }
     before = t.to;
@@ -150,8 +157,9 @@ Check check_transitions(const SpriteData& data) {
         "row-order", "TRAN", 0,
         "the row starts do not ascend from 0 to the number of transitions, one a sample");
   }
+  const std::vector<std::uint8_t> kept = kept_of(data);
   for (std::uint32_t i = 0; i < n; ++i) {
-    if (Check bad = check_row(data, i)) return bad;
+    if (Check bad = check_row(data, kept, i)) return bad;
   }
   return {};
 }
@@ -215,47 +223,69 @@ Check check_mode_settings(const ControlMode& mode, const std::string& what) {
   return {};
 }
 
-// Every kept sample must lead to a kept one along a transition that exists.
-Check check_next(const SpriteData& data, const ControlMode& mode, const std::string& what) {
+// What is wrong with an entry of next; empty: nothing.
+Check check_entry(const SpriteData& data, const ControlMode& mode, std::size_t table,
+                  std::uint32_t from, const std::string& what) {
   const std::size_t n = data.samples.size();
-  if (mode.next.size() != mode.tables() * n || mode.go.size() != mode.tables() * n ||
+  const std::uint32_t to = mode.next[table * n + from];
+  const auto bad = [&](std::string_view code, const std::string& found) {
+    return finding(code, "CTRL", 0,
+                   what + "table " + number(table) + ", sample " + number(from) + ": " + found);
+  };
+  if (data.samples[from].kept == 0) {
+    if (to == kNoSample) return {};
+    return bad("next-unkept", "was not kept but has a next");
+  }
+  if (to >= n) return bad("next-index", "next is sample " + number(to) + " of " + number(n));
+  if (data.samples[to].kept == 0)
+    return bad("next-kept", "next is sample " + number(to) + ", which was not kept");
+  const bool skips = mode.plays_through && is_skip(data, from, to);
+  if (is_natural(data, from, to) || skips || find_transition(data, from, to) != nullptr) return {};
+  return bad("next-transition",
+             "next is sample " + number(to) + ", but there is no such transition");
+}
+
+// Every kept sample must lead to a kept one along a transition that exists. Sixteen samples of all
+// tables at a time: their transitions stay at hand, and what one table leads to most others do too.
+Check check_next(const SpriteData& data, const ControlMode& mode, const std::string& what) {
+  const std::size_t n = data.samples.size(), tables = mode.tables();
+  if (mode.next.size() != tables * n || mode.go.size() != tables * n ||
       mode.arrived.size() != (mode.by_state ? n : 0)) {
     return finding("next-size", "CTRL", 0,
-                   what + number(mode.next.size()) + " entries of next, " +
-                       number(mode.tables() * n) + " are due, and as many of go");
+                   what + number(mode.next.size()) + " entries of next, " + number(tables * n) +
+                       " are due, and as many of go");
   }
-  for (std::size_t k = 0; k < mode.next.size(); ++k) {
-    const auto from = static_cast<std::uint32_t>(k % n);
-    const std::uint32_t to = mode.next[k];
-    const auto bad = [&](std::string_view code, const std::string& found) {
-      return finding(code, "CTRL", 0,
-                     what + "table " + number(k / n) + ", sample " + number(from) + ": " + found);
-    };
-    if (data.samples[from].kept == 0) {
-      if (to == kNoSample) continue;
-      return bad("next-unkept", "was not kept but has a next");
-    }
-    if (to >= n) return bad("next-index", "next is sample " + number(to) + " of " + number(n));
-    if (data.samples[to].kept == 0) {
-      return bad("next-kept", "next is sample " + number(to) + ", which was not kept");
-    }
-    const bool skips = mode.plays_through && is_skip(data, from, to);
-    if (!is_natural(data, from, to) && !skips && !find_transition(data, from, to)) {
-      return bad("next-transition",
-                 "next is sample " + number(to) + ", but there is no such transition");
+  constexpr std::size_t kBlock = 16;
+  for (std::size_t first = 0; first < n; first += kBlock) {
+    const std::size_t count = std::min(n - first, kBlock);
+    for (std::size_t table = 0; table < tables; ++table) {
+      const std::uint32_t* next = mode.next.data() + table * n + first;
+      for (std::size_t k = 0; k < count; ++k) {
+        if (table > 0 && next[k] == *(next + k - n)) continue;
+        const auto from = static_cast<std::uint32_t>(first + k);
+        if (Check bad = check_entry(data, mode, table, from, what)) return bad;
+      }
     }
   }
   return {};
 }
 
 // What is compared when a game asks for variety or clearance.
-Check check_go(const SpriteData& data, const ControlMode& mode, const std::string& what) {
-  const std::size_t n = data.samples.size();
-  for (std::size_t k = 0; k < mode.go.size(); ++k) {
-    const bool kept = data.samples[k % n].kept == 1;
-    if (kept ? std::isfinite(mode.go[k]) && mode.go[k] >= 0 : mode.go[k] == 0) continue;
+Check check_go(const ControlMode& mode, std::span<const std::uint8_t> kept,
+               const std::string& what) {
+  const std::size_t n = kept.size();
+  for (std::size_t table = 0; table < mode.tables(); ++table) {
+    const std::span<const float> go = std::span(mode.go).subspan(table * n, n);
+    const auto is_good = [&](std::size_t i) {  // finite, >= 0; 0 where the sample was not kept
+      return (go[i] >= 0) & (go[i] <= (kept[i] != 0 ? std::numeric_limits<float>::max() : 0.0f));
+    };
+    bool all = true;
+    for (std::size_t i = 0; i < n; ++i) all &= is_good(i);
+    if (all) continue;
+    std::size_t bad = 0;
+    while (is_good(bad)) ++bad;
     return finding("go", "CTRL", 0,
-                   what + "table " + number(k / n) + ", sample " + number(k % n) +
+                   what + "table " + number(table) + ", sample " + number(bad) +
                        ": the cost to go is not a finite number >= 0, or not 0 for a sample that "
                        "was not kept");
   }
@@ -272,11 +302,12 @@ Check check_modes(const SpriteData& data) {
     return finding("mode-count", "CTRL", 0,
                    number(data.modes.size()) + " modes, 1 to " + number(kMaxModes) + " are due");
   }
+  const std::vector<std::uint8_t> kept = kept_of(data);
   for (std::size_t m = 0; m < data.modes.size(); ++m) {
     const std::string what = "mode " + number(m) + ": ";
     if (Check bad = check_mode_settings(data.modes[m], what)) return bad;
     if (Check bad = check_next(data, data.modes[m], what)) return bad;
-    if (Check bad = check_go(data, data.modes[m], what)) return bad;
+    if (Check bad = check_go(data.modes[m], kept, what)) return bad;
     for (std::size_t other = 0; other < m; ++other) {
       if (data.modes[other].name == data.modes[m].name) {
         return finding("mode-name", "CTRL", 0, what + "has the name of mode " + number(other));
@@ -460,6 +491,11 @@ Result<void> decode(const Sprite::Impl& impl, std::uint32_t sample, Picture& out
 Result<void> Sprite::decode_frame(std::uint32_t sample, Image& out) const {
   assert(sample < impl_->data.samples.size());
   return decode(*impl_, sample, out);
+}
+
+std::size_t Sprite::picture_bytes(std::uint32_t sample) const noexcept {
+  assert(sample < impl_->data.samples.size());
+  return impl_->frames.empty() ? 0 : impl_->frames[sample].bytes;
 }
 
 Result<void> Sprite::Impl::decode_trimmed(std::uint32_t sample, detail::TrimmedImage& out) const {

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 
+#include "control/actions.h"
 #include "control/bench.h"
 #include "vsprite/actor.h"
 #include "vsprite/random.h"
@@ -29,11 +30,16 @@ Result<Solution> solve_again(const CostTable& costs, const Motion& motion, const
   return solve(costs, motion.velocities, motion.v0, paper_config(mode), jobs);
 }
 
+CostTable costs_of(const SpriteData& data) {
+  CostTable costs{data.row_start, data.transitions, {}, {}};
+  costs.kept.assign(data.samples.size(), 1);
+  return costs;
+}
+
 // Solves every mode of `model` for the samples of `data`, and measures what it serves.
 Result<Sprite> solve_modes(SpriteData& data, const SpriteData& model, double v0,
                            const ChoiceConfig& config) {
-  CostTable costs{data.row_start, data.transitions, {}, {}};
-  costs.kept.assign(data.samples.size(), 1);
+  CostTable costs = costs_of(data);
   std::vector<Vec2> velocities;
   std::vector<float> skip_costs;
   std::vector<std::string> tags;
@@ -103,6 +109,26 @@ void keep_connected(const SpriteData& data, const std::vector<std::uint64_t>& sh
     if (parts.of[i] != best) chosen[i] = 0;
 }
 
+// The way to every tag anew; cuts lead where they led.
+Result<void> solve_actions(const SpriteData& large, SampleChoice& choice) {
+  std::vector<std::uint32_t> number(large.samples.size(), kNoSample);
+  for (std::uint32_t k = 0; k < choice.from.size(); ++k) number[choice.from[k]] = k;
+  SpriteData& data = choice.data;
+  data.action_tau = large.action_tau;
+  data.action_horizon = large.action_horizon;
+  const ActionConfig config{.tau = large.action_tau,
+                            .horizon = static_cast<int>(large.action_horizon)};
+  for (const ActionTable& action : large.actions) {
+    std::vector<Cut> cuts;
+    for (const std::uint32_t i : choice.from)
+      cuts.push_back({number[action.cut[i]], action.cut_cost[i]});
+    auto table = solve_action(costs_of(data), data.samples, action.tag, cuts, config);
+    if (!table) return table.error();
+    data.actions.push_back(std::move(*table));
+  }
+  return {};
+}
+
 // One mode's state between two rounds, all in the numbering of the large sprite.
 class Chooser {
  public:
@@ -111,6 +137,9 @@ class Chooser {
     for (const Sample& s : data.samples) chosen_.push_back(s.kept == 1 ? 1 : 0);
     is_protected_.assign(data.samples.size(), 0);
     for (const SampleEvent& event : data.events) is_protected_[event.sample] = 1;
+    for (const ActionTable& action : data.actions)
+      for (const std::uint32_t to : action.cut)
+        if (to != kNoSample) is_protected_[to] = 1;
   }
 
   Result<SampleChoice> run() {
@@ -134,6 +163,7 @@ class Chooser {
                          "every direction and tag, " + amount(config_.limit) + " at most are due"};
       }
     }
+    if (auto solved = solve_actions(data_, best_); !solved) return solved.error();
     return std::move(best_);
   }
 
@@ -141,10 +171,16 @@ class Chooser {
   double weight_of(std::size_t i) const { return config_.weights.empty() ? 1 : config_.weights[i]; }
   double weight(const std::vector<std::uint8_t>& chosen) const {
     double sum = 0;
-    for (std::size_t i = 0; i < chosen.size(); ++i)
-      if (chosen[i] != 0) sum += weight_of(i);
-    return sum;
+    std::size_t ways = 0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      if (chosen[i] == 0) continue;
+      sum += weight_of(i);
+      for (std::uint32_t k = data_.row_start[i]; k < data_.row_start[i + 1]; ++k)
+        ways += chosen[data_.transitions[k].to];
+    }
+    return sum + config_.transition_weight * static_cast<double>(ways);
   }
+  double ways_of(std::uint32_t i) const { return data_.row_start[i + 1] - data_.row_start[i]; }
   std::string amount(double value) const {
     if (config_.weights.empty()) return std::to_string(std::llround(value)) + " samples";
     return std::to_string(std::llround(value / 1000)) + " kB of samples";
@@ -200,7 +236,7 @@ class Chooser {
     const double goal = std::max(config_.limit, left * (1 - share));
     for (std::size_t k = 0; k < order.size() && left > goal; ++k) {
       fewer[order[k]] = 0;
-      left -= weight_of(order[k]);
+      left -= weight_of(order[k]) + config_.transition_weight * ways_of(order[k]);
     }
     keep_connected(data_, shown_, fewer);
     return fewer;

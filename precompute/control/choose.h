@@ -13,7 +13,8 @@
 // turn in a hundred takes too long, is taken back and made again with a smaller share. (Slow turns
 // are put up with where the limit cannot be met otherwise.)
 //
-// Never left out: samples with an event, and the tags that steering does not show (actions).
+// Never left out: samples with an event, the tags that steering does not show (actions), and the
+// first samples that a cut to a tag shows, so that the cuts stay as they were judged.
 #pragma once
 
 #include <cstdint>
@@ -27,6 +28,7 @@ namespace vsprite {
 struct ChoiceConfig {
   double limit = 256;             ///< the chosen samples weigh at most so much, > 0
   std::vector<double> weights{};  ///< (N), > 0, e.g. bytes; empty: 1 each
+  double transition_weight = 0;   ///< of every transition between two chosen samples, >= 0
   double share = 0.25;            ///< of the weight that a round leaves out at most, (0, 1)
   std::uint64_t ticks = 120000;   ///< driven a round
   std::uint64_t seed = 1;         ///< of the commands
@@ -34,8 +36,8 @@ struct ChoiceConfig {
 };
 
 struct SampleChoice {
-  /// Numbered anew without gaps, solved by the modes' own settings; where samples are missing a
-  /// clip ends and another begins. Without action tables. Its start sample is 0.
+  /// Numbered anew without gaps, modes and actions solved by their own settings; where samples are
+  /// missing a clip ends and another begins. Its start sample is 0.
   SpriteData data;
   std::vector<std::uint32_t> from;  ///< (n) ascending: the sample's number in the large sprite
 };
@@ -46,7 +48,8 @@ SampleChoice take_samples(const SpriteData& data, const std::vector<std::uint8_t
 
 /// A sprite that is small enough already is solved again too. Cost: some seconds for 10,000
 /// samples. Errors: BadContent (no such choice serves all directions that the default mode of
-/// `data` serves: says how much the smallest one weighs), those of solve() and solve_joint().
+/// `data` serves: says how much the smallest one weighs), those of solve(), solve_joint() and
+/// solve_action().
 Result<SampleChoice> choose_samples(const SpriteData& data, const ChoiceConfig& config);
 
 }  // namespace vsprite

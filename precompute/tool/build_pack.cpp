@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "control/actions.h"
+#include "tool/budget.h"
 #include "tool/stages.h"
 #include "tool/views_file.h"
 #include "vsprite/ground.h"
@@ -167,15 +168,50 @@ Result<void> add_actions(StageRun& run, const TransitionFile& file, SpriteData& 
   return {};
 }
 
-// The floor on which the film was taken, in the sprite's pixels.
-Result<void> add_floor(const StageRun& run) {
+// The floor on which the film was taken, in the sprite's pixels; no bytes where there was none.
+Result<std::vector<std::uint8_t>> floor_bytes(const StageRun& run) {
   const Json* made = run.project.record("segment");
   const Json result = made == nullptr ? Json() : made->value("result", Json::object());
-  if (!result.is_object() || !result.contains("floor")) return {};
+  if (!result.is_object() || !result.contains("floor")) return std::vector<std::uint8_t>{};
   const Json& floor = result["floor"];
   const auto number = [&floor](const char* key) { return floor.value(key, 0.0f); };
   const Ground ground{number("horizon"), number("ground_line"), number("center"), number("focal")};
-  return save_ground(run.pack, scaled(ground, number("scale")));
+  return encode_ground(scaled(ground, number("scale")));
+}
+
+// From the pack of all samples at `whole` to the one that is wanted.
+Result<void> keep_budget(const StageRun& run, const std::string& whole, Json& result) {
+  const double budget = run.settings.budget * 1e6;
+  std::error_code error;
+  if (static_cast<double>(fs::file_size(whole, error)) <= budget) {
+    fs::rename(whole, run.pack, error);
+    if (!error) return {};
+    return Error{ErrorCode::CannotCreate, run.pack + ": " + error.message()};
+  }
+  const auto fitted = fit_pack(
+      whole, run.pack, {.bytes = budget, .seed = run.settings.seed, .jobs = run.settings.jobs});
+  fs::remove(whole, error);
+  if (!fitted)
+    return Error{fitted.error().code,
+                 run.pack + ": " + fitted.error().message + ": raise --budget"};
+  const auto json = [](const PackMeasure& of) {
+    return Json{{"bytes", of.bytes}, {"samples", of.samples}, {"turn_median", of.turn_median}};
+  };
+  result["budget"] = {{"whole", json(fitted->before)}, {"fitted", json(fitted->after)}};
+  return {};
+}
+
+// What the stage has to say of the pack that it wrote.
+Result<Json> measure_pack(const StageRun& run, Json result) {
+  const auto sprite = load_pack(run.pack);
+  if (!sprite) return sprite.error();
+  std::error_code error;
+  result["pack_bytes"] = fs::file_size(run.pack, error);
+  result["body_length"] = sprite->data().body_length;
+  result["directions"] = Json::array();
+  for (const DirectionReport& report : measure_directions(*sprite, 0, run.settings.seed))
+    result["directions"].push_back(direction_json(sprite->data(), report));
+  return result;
 }
 
 }  // namespace
@@ -265,27 +301,25 @@ Result<Json> write_pack(StageRun& run) {
   if (const Json* made = run.project.record("segment"))
     add_events(made->value("result", Json::object()).value("cast", Json()), *rows, *data);
 
-  const auto trial = make_sprite(*data);
-  if (!trial) return trial.error();
-  const DirectionReports reports = measure_directions(*trial, 0, run.settings.seed);
-
   PictureReader pictures(run.project, *rows);
   const double count = static_cast<double>(rows->size());
   const FrameSource source = [&](std::uint32_t sample) {
     if (run.listener.progress) run.listener.progress(sample / count);
     return pictures.picture(static_cast<int>(sample));
   };
-  if (auto saved = save_pack(run.pack, *data, source); !saved) return saved.error();
-  if (auto added = add_floor(run); !added) return added.error();
-  if (auto added = add_puppets(run.project.folder(), run.pack); !added) return added.error();
+  auto floor = floor_bytes(run);
+  if (!floor) return floor.error();
+  auto puppets = puppet_bytes(run.project.folder());
+  if (!puppets) return puppets.error();
+  const PackExtra extras[] = {{"GRND", std::move(*floor)}, {"PUPT", std::move(*puppets)}};
+  const bool fits = run.settings.budget == 0;
+  const std::string path = fits ? run.pack : run.pack + ".tmp.whole";
+  if (auto saved = save_pack(path, *data, source, extras); !saved) return saved.error();
 
-  std::error_code error;
-  Json directions = Json::array();
-  for (const DirectionReport& report : reports) directions.push_back(direction_json(*data, report));
-  const double bytes = static_cast<double>(fs::file_size(run.pack, error));
-  return Json{{"pack_bytes", static_cast<std::uint64_t>(bytes)},
-              {"body_length", data->body_length},
-              {"directions", directions}};
+  Json result = Json::object();
+  if (auto kept = fits ? Result<void>() : keep_budget(run, path, result); !kept)
+    return kept.error();
+  return measure_pack(run, std::move(result));
 }
 
 }  // namespace vsprite

@@ -91,6 +91,15 @@ std::vector<std::string> train_lines(const Json& r) {
   return lines;
 }
 
+/// What a smaller pack costs.
+std::string budget_text(const Json& r) {
+  const Json whole = r.value("whole", Json::object()), fitted = r.value("fitted", Json::object());
+  return "of " + bytes_text(static_cast<std::uint64_t>(count_of(whole, "bytes"))) + " and " +
+         count_text(whole, "samples") + " samples " + count_text(fitted, "samples") +
+         " stay; frames to turn in the median: " + fixed_text(real_of(whole, "turn_median"), 0) +
+         " before, " + fixed_text(real_of(fitted, "turn_median"), 0) + " now";
+}
+
 /// What joins the tags of a cast, each pair of tags once, at its cheapest; inside a tag only what
 /// is dear.
 std::vector<std::string> join_lines(const Json& r) {
@@ -160,6 +169,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     line("paper", r);
   } else if (stage.name == "pack") {
     lines.push_back(bytes_text(static_cast<std::uint64_t>(count_of(r, "pack_bytes"))));
+    if (r.contains("budget")) lines.push_back(budget_text(r["budget"]));
   }
   return lines;
 }

@@ -266,6 +266,10 @@ void add_stage_options(Row& t) {
          "mode responsive: a sample so near the command has turned, degrees", kSolve);
   t.real("action-tau", "T", &Settings::action_tau, 0.001, 100, false,
          "casts: price of a tick on the way to a tag, in transition costs", " pack build play ");
+  t.real(
+      "budget", "MB", &Settings::budget, 0, 8000, false,
+      "largest pack: frames are left out in the order in which control loses least; 0 = all stay",
+      " pack build play ");
   t.real("change-rate", "RATE", &Settings::change_rate, 0, 10, false,
          "mode responsive: changes of command to expect, a second; 0 = expect none", kSolve);
   t.real("speed-weight", "RAD", &Settings::speed_weight, 0, 100, false,
@@ -375,11 +379,11 @@ void add_path_options(Row& t) {
          "price of a body length off the path, squared, a tick", " path ");
   t.real("tau", "W", &Settings::tau, 0, 1000, false,
          "price of a tick: looks ahead to the end; 0 = the paper's form", " path ");
-  t.real("budget", "S", &Settings::budget, 0.01, 1000000, false,
+  t.real("seconds", "S", &Settings::seconds, 0.01, 1000000, false,
          "scene: seconds of search; Ctrl-C ends it early and keeps the best so far", " path ");
   t.whole<std::uint64_t>("proposals", "N", &Settings::proposals, 0, UINT64_MAX,
                          "scene: stop after so many instead: the same N and seed give the same "
-                         "result; 0 = by the budget",
+                         "result; 0 = by --seconds",
                          " path ");
   t.text("search", "HOW", &Settings::search,
          "scene: replace looks ahead; beam (of --beam) does not: for comparison, one sprite",

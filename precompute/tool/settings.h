@@ -72,6 +72,7 @@ struct Settings {
   double bend = 15;
   double exit_angle = 25;
   double action_tau = 0.05;  ///< price of a tick on the way to a tag
+  double budget = 0;         ///< MB of the pack; 0: all samples
 
   // Looking before building.
   int preview = 0;  ///< frames on the contact sheet; 0: none is asked for
@@ -102,14 +103,14 @@ struct Settings {
   double path_w1 = 0.2;
   double w2 = 8;
   double tau = 0.1;
-  double budget = 10;
+  double seconds = 10;
   std::string to;                    ///< export: what it becomes
   std::string page;                  ///< export: the template; empty: the installation's
   double page_limit = 10;            ///< MB
   int samples = 256;                 ///< export: at most; 0: all
   std::string order = "directions";  ///< export: what is played where nothing is steered
   std::string godot = "4";
-  std::uint64_t proposals = 0;  ///< 0: as many as the budget allows
+  std::uint64_t proposals = 0;  ///< 0: as many as the seconds allow
   std::string resume;
   std::string clip;
   std::string plane = "screen";

@@ -256,8 +256,10 @@ Result<StageKey> pack_key(StageRun& run) {
   Json events = Json::array();
   for (const Json& clip : cast.is_array() ? cast : Json::array())
     if (clip.contains("events")) events.push_back(clip["events"]);
-  const Json settings = {
-      {"events", events}, {"seed", run.settings.seed}, {"action-tau", run.settings.action_tau}};
+  const Json settings = {{"events", events},
+                         {"seed", run.settings.seed},
+                         {"action-tau", run.settings.action_tau},
+                         {"budget", run.settings.budget}};
   if (std::filesystem::exists(run.project.path("puppets.bin")))
     return key_of(run, "pack", settings,
                   {"sprites", "transitions.bin", "values.bin", "puppets.bin"});

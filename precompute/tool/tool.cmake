@@ -8,6 +8,7 @@ pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash sqlite3)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
 target_sources(vsprite_precompute PRIVATE
   tool/atlas.cpp
+  tool/budget.cpp
   tool/build_pack.cpp
   tool/cast.cpp
   tool/cast_file.cpp

@@ -211,19 +211,20 @@ Result<void> save_puppet_pack(const std::string& path, const std::vector<Puppet>
     unpremultiply(picture);
     return picture;
   };
-  if (auto saved = save_pack(path, ring_of_views(puppets[0]), frames); !saved) return saved;
-  return save_puppets(path, path, puppets);
+  auto bytes = encode_puppets(puppets);
+  if (!bytes) return bytes.error();
+  const PackExtra extra{"PUPT", std::move(*bytes)};
+  return save_pack(path, ring_of_views(puppets[0]), frames, {&extra, 1});
 }
 
-Result<void> add_puppets(const std::string& work, const std::string& pack) {
+Result<std::vector<std::uint8_t>> puppet_bytes(const std::string& work) {
   const std::string path = work + "/puppets.bin";
-  if (!fs::exists(path)) return {};
+  if (!fs::exists(path)) return std::vector<std::uint8_t>{};
   const auto text = read_file(path);
   if (!text) return text.error();
-  const std::span bytes(reinterpret_cast<const std::uint8_t*>(text->data()), text->size());
-  const auto puppets = decode_puppets(bytes, path);
-  if (!puppets) return puppets.error();
-  return save_puppets(pack, pack, *puppets);
+  std::vector<std::uint8_t> bytes(text->begin(), text->end());
+  if (const auto puppets = decode_puppets(bytes, path); !puppets) return puppets.error();
+  return bytes;
 }
 
 }  // namespace vsprite

@@ -52,11 +52,11 @@ namespace vsprite {
 Result<ViewSet> parse_views(const std::string& text, const std::string& path);
 
 /// A pack of puppets and nothing else: its samples are the first one's views, one after the other.
-/// Pre: at least one puppet. Errors: those of save_pack and save_puppets.
+/// Pre: at least one puppet. Errors: those of save_pack and encode_puppets.
 Result<void> save_puppet_pack(const std::string& path, const std::vector<Puppet>& puppets);
 
-/// The puppets that `fit --work` left in a work folder, if any, into its pack.
-/// Errors: CorruptData, those of save_puppets.
-Result<void> add_puppets(const std::string& work, const std::string& pack);
+/// The section PUPT that `fit --work` left in a work folder, checked; empty: none.
+/// Errors: CorruptData, those of read_file.
+Result<std::vector<std::uint8_t>> puppet_bytes(const std::string& work);
 
 }  // namespace vsprite

@@ -51,6 +51,19 @@ cp kept.png c.work/sprites/000007.png
 expect 0 vsprite build "a film.mp4" -o c.vsp
 [ "$(sum c.vsp)" = "$first" ] || fail "undoing a retouch gives another pack"
 
+# A smaller pack of the same folder; too small a one is refused and leaves what there was.
+expect 0 vsprite pack --work c.work -o whole.vsp
+expect 0 vsprite pack --work c.work -o small.vsp --budget "$(awk "BEGIN {print $(stat -c %s whole.vsp) * 0.8 / 1e6}")" --json
+is_json /pack_bytes /budget/whole/turn_median /budget/fitted/bytes
+[ "$(stat -c %s small.vsp)" -le $(($(stat -c %s whole.vsp) * 8 / 10)) ] || fail "small.vsp is too large"
+expect 0 vsprite validate small.vsp
+expect 3 vsprite pack --work c.work -o tiny.vsp --budget 0.001; says "raise --budget"; one_sentence
+[ ! -e tiny.vsp ] || fail "a refused budget leaves a pack"
+no_temporaries
+expect 2 vsprite pack --work c.work -o tiny.vsp --budget -1; one_sentence
+expect 0 vsprite build "a film.mp4" -o c.vsp
+[ "$(sum c.vsp)" = "$first" ] || fail "a small pack has changed the large one"
+
 expect 0 vsprite build "a film.mp4" -o c.vsp
 [ "$(grep -c 'up to date' stderr)" = 5 ] || fail "a second run did something"
 prints "next: vsprite play c.vsp"

@@ -96,12 +96,12 @@ cost() { python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["cost"
 expect 0 path scene.toml --proposals 500 --seed 3 --resume s1.json -o s3.json
 [ "$(printf '%s\n%s\n' "$(cost s3.json)" "$(cost s1.json)" | sort -g | head -1)" = "$(cost s3.json)" ] ||
   fail "a resumed search came out dearer"
-expect 0 path scene.toml --budget 0.3 -o scene.mp4
+expect 0 path scene.toml --seconds 0.3 -o scene.mp4
 [ "$(probe nb_frames scene.mp4)" = 90 ] || [ "$(probe nb_frames scene.mp4)" = 75 ] || fail "frames of a scene"
-"$BIN/vsprite" path ring.vsp --script scene.toml --budget 1000 -o best.json >stop.txt 2>&1 & pid=$!
+"$BIN/vsprite" path ring.vsp --script scene.toml --seconds 1000 -o best.json >stop.txt 2>&1 & pid=$!
 sleep 1; kill -INT $pid; wait $pid; [ $? = 130 ] || fail "an interrupted scene's exit code"
 [ -s best.json ] || fail "an interrupted scene gives no best so far"
-expect 2 path scene.toml --budget 0; one_sentence
+expect 2 path scene.toml --seconds 0; one_sentence
 expect 3 path scene.toml --proposals 9 --resume corner.txt; one_sentence
 expect 3 path scene.toml --proposals 9 --search beam; says "one sprite"; one_sentence
 printf 'for = "mouse"\n' | cat - scene.toml >other.toml

@@ -18,13 +18,14 @@ namespace {
 
 constexpr Ground kFloor{.horizon = 100, .line = 400, .center = 320, .focal = 500};
 
-std::string tiny_pack(const testing::TempFolder& folder) {
+std::string tiny_pack(const testing::TempFolder& folder, std::vector<std::uint8_t> floor = {}) {
   const SpriteData data = testing::tiny_sprite_data();
   const std::string path = folder.file("tiny.vsp");
   const auto picture = [&](std::uint32_t i) -> Result<Image> {
     return make_image(data.samples[i].width, data.samples[i].height, 9, 9, 9, 255);
   };
-  EXPECT_TRUE(save_pack(path, data, picture));
+  const PackExtra extras[] = {{"GRND", std::move(floor)}, {"GAME", {1, 2, 3}}};
+  EXPECT_TRUE(save_pack(path, data, picture, extras));
   return path;
 }
 
@@ -68,12 +69,10 @@ TEST(Ground, TheHorizonAndTheCameraAreKeptAway) {
 
 TEST(Ground, LiesInThePackAndComesBack) {
   const testing::TempFolder folder;
-  const std::string path = tiny_pack(folder);
-  const auto none = load_ground(path);
+  const auto none = load_ground(tiny_pack(folder));
   ASSERT_TRUE(none);
   EXPECT_FALSE(none->has_value());
-  ASSERT_TRUE(save_ground(path, {1, 2, 3, 4}));
-  ASSERT_TRUE(save_ground(path, kFloor));
+  const std::string path = tiny_pack(folder, *encode_ground(kFloor));
   const auto loaded = load_ground(path);
   ASSERT_TRUE(loaded) << loaded.error().message;
   ASSERT_TRUE(loaded->has_value());
@@ -83,16 +82,17 @@ TEST(Ground, LiesInThePackAndComesBack) {
   EXPECT_EQ((*loaded)->focal, 500);
   EXPECT_TRUE(load_pack(path));  // which skips it
   EXPECT_TRUE(verify_pack(path)->empty());
+  EXPECT_EQ(*load_extra(path, "GAME"), (std::vector<std::uint8_t>{1, 2, 3}));
 }
 
 TEST(Ground, RefusesWhatIsNoFloor) {
   const testing::TempFolder folder;
-  const std::string path = tiny_pack(folder);
-  EXPECT_FALSE(save_ground(path, {400, 400, 0, 500}));
-  EXPECT_FALSE(save_ground(path, {100, 400, 0, 0}));
-  EXPECT_FALSE(save_ground(path, {100, std::nanf(""), 0, 500}));
-  EXPECT_FALSE(save_ground(folder.file("absent.vsp"), kFloor));
-  ASSERT_TRUE(save_ground(path, kFloor));
+  EXPECT_FALSE(encode_ground({400, 400, 0, 500}));
+  EXPECT_FALSE(encode_ground({100, 400, 0, 0}));
+  EXPECT_FALSE(encode_ground({100, std::nanf(""), 0, 500}));
+  EXPECT_FALSE(load_ground(folder.file("absent.vsp")));
+  EXPECT_FALSE(load_ground(tiny_pack(folder, {1, 2, 3})));
+  const std::string path = tiny_pack(folder, *encode_ground(kFloor));
   // Any changed byte of the section is found.
   std::ifstream file(path, std::ios::binary);
   std::string bytes{std::istreambuf_iterator<char>(file), {}};

@@ -77,6 +77,20 @@ TEST(Choose, WeightsCountAndAnEventIsKept) {
   EXPECT_EQ(choice->from[choice->data.events[0].sample], rare);
 }
 
+TEST(Choose, TransitionsWeighToo) {
+  const SpriteData full = tiny_sprite_data();
+  ChoiceConfig config = at_most(0);
+  config.weights.assign(full.samples.size(), 10);
+  config.transition_weight = 2;
+  const double all = 10.0 * static_cast<double>(full.samples.size()) +
+                     2.0 * static_cast<double>(full.transitions.size());
+  config.limit = 0.7 * all;
+  const auto choice = choose_samples(full, config);
+  ASSERT_TRUE(choice) << choice.error().message;
+  EXPECT_LT(choice->data.samples.size(), full.samples.size());
+  EXPECT_LE(10 * choice->data.samples.size() + 2 * choice->data.transitions.size(), config.limit);
+}
+
 TEST(Choose, WhatCannotServeEveryDirectionIsRefused) {
   const auto choice = choose_samples(tiny_sprite_data(), at_most(5));
   ASSERT_FALSE(choice);

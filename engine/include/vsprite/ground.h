@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "vsprite/geometry.h"
 #include "vsprite/result.h"
@@ -50,9 +51,8 @@ Ground scaled(const Ground& ground, float factor) noexcept;
 /// The floor of the pack at `path`, in the sprite's pixels; none is no error.
 /// Errors: those of load_pack that concern the section; CorruptData.
 Result<std::optional<Ground>> load_ground(const std::string& path);
-/// Writes it into the pack at `path`, in place of one that is there; the rest stays byte for byte.
-/// Errors: those of load_ground; CorruptData (numbers that load_ground would refuse), CannotCreate,
-/// CannotWrite.
-Result<void> save_ground(const std::string& path, const Ground& ground);
+/// The bytes of a section GRND, for save_pack. Errors: CorruptData (numbers that load_ground would
+/// refuse).
+Result<std::vector<std::uint8_t>> encode_ground(const Ground& ground);
 
 }  // namespace vsprite

@@ -13,6 +13,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vsprite/result.h"
@@ -46,11 +47,23 @@ Result<Sprite> load_pack(PackReader reader);
 /// Hands out the straight-alpha picture of a kept sample; called once each, in ascending order.
 using FrameSource = std::function<Result<Image>(std::uint32_t sample)>;
 
+/// A section that is read apart from the sprite: a floor (encode_ground), puppets (encode_puppets),
+/// or one of a game's own.
+struct PackExtra {
+  std::string name;  ///< four capital letters, of no section that save_pack writes by itself
+  std::vector<std::uint8_t> bytes;
+};
+
 /// Writes a pack: `path` appears complete and synced, or not at all. The same data give the same
-/// bytes. One picture is in memory at a time. Temporaries that killed writers of the same path left
-/// behind are removed. Errors: CannotCreate, CannotWrite, CorruptData (`data` contradicts itself),
+/// bytes. One picture is in memory at a time. `extras` follow the pictures as they are; those
+/// without bytes are left out. Temporaries that killed writers of the same path left behind are
+/// removed. Errors: CannotCreate, CannotWrite, CorruptData (`data` contradicts itself),
 /// OutOfMemory, and whatever `frames` returns.
-Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames);
+Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames,
+                       std::span<const PackExtra> extras = {});
+/// The bytes of the first section of that name; empty: there is none. Errors: those of load_pack
+/// that concern header and section.
+Result<std::vector<std::uint8_t>> load_extra(const std::string& path, std::string_view name);
 
 /// One finding of verify_pack.
 struct PackIssue {

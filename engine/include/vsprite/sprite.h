@@ -162,6 +162,9 @@ class Sprite {
   /// N.
   Result<void> decode_frame(std::uint32_t sample, Image& out) const;
 
+  /// Bytes of that picture in the pack, compressed; 0 where it is empty. Pre: sample < N.
+  std::size_t picture_bytes(std::uint32_t sample) const noexcept;
+
   struct Impl;  ///< the engine's own
   const Impl& impl() const noexcept { return *impl_; }
   explicit Sprite(std::unique_ptr<Impl> impl) noexcept;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// path --script SCENE.toml: sprites on cue, by replacement search, until the budget is spent.
+// path --script SCENE.toml: sprites on cue, by replacement search, until its seconds are spent.
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
@@ -96,8 +96,8 @@ class Watch {
     const bool by_count = settings_.proposals > 0;
     listener_.progress(by_count ? static_cast<double>(proposals) /
                                       static_cast<double>(settings_.proposals)
-                                : std::min(1.0, now / settings_.budget));
-    return !InterruptNote::is_set() && (by_count || now < settings_.budget);
+                                : std::min(1.0, now / settings_.seconds));
+    return !InterruptNote::is_set() && (by_count || now < settings_.seconds);
   }
 
   const Settings& settings_;
