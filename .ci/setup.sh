@@ -7,7 +7,7 @@ build="$here/build/release"
 
 play_packages="g++ cmake ninja-build pkg-config libsdl2-dev libgl-dev libpng-dev libzstd-dev
   libxxhash-dev libavformat-dev libavcodec-dev libswscale-dev libeigen3-dev libtbb-dev libhwy-dev
-  libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libsqlite3-dev libimgui-dev fonts-dejavu-core ffmpeg"
+  libcli11-dev libtomlplusplus-dev libpugixml-dev nlohmann-json3-dev libsqlite3-dev libimgui-dev fonts-dejavu-core ffmpeg"
 test_packages="$play_packages libgtest-dev liblinear-dev strace xvfb xauth xdotool luajit love python3
   python3-pil godot3-server"
 

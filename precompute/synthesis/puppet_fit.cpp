@@ -145,26 +145,6 @@ bool shows_something(const Face& face, const View& view) {
   return false;
 }
 
-std::vector<Face> make_mesh(const ViewSet& set) {
-  if (!set.faces.empty()) return set.faces;
-  const std::vector<std::size_t> textured = textured_views(set);
-  const auto& points = texture_points(set.views[textured[0]]);
-  std::vector<LinkMark> parts = set.links;
-  if (parts.empty()) parts.push_back({.name = {}, .count = static_cast<int>(points.size())});
-  std::vector<Face> out;
-  for (const LinkMark& part : parts) {
-    const std::span<const Vec2> own(points.data() + part.first,
-                                    static_cast<std::size_t>(part.count));
-    for (Face face : triangulate(own)) {
-      for (std::uint32_t& c : face.corners) c += static_cast<std::uint32_t>(part.first);
-      bool shows = false;
-      for (const std::size_t v : textured) shows |= shows_something(face, set.views[v]);
-      if (shows) out.push_back(face);
-    }
-  }
-  return out;
-}
-
 // One-hot scores of the pictures over their own configurations.
 Result<RbfNetwork> fit_view_map(const ViewSet& set) {
   const std::vector<std::size_t> textured = textured_views(set);
@@ -222,6 +202,27 @@ Puppet make_character(const ViewSet& set, const Puppet& prototype, const Charact
 }
 
 }  // namespace
+
+std::vector<Face> make_mesh(const ViewSet& set) {
+  if (!set.faces.empty()) return set.faces;
+  const std::vector<std::size_t> textured = textured_views(set);
+  if (textured.empty()) return {};
+  const auto& points = texture_points(set.views[textured[0]]);
+  std::vector<LinkMark> parts = set.links;
+  if (parts.empty()) parts.push_back({.name = {}, .count = static_cast<int>(points.size())});
+  std::vector<Face> out;
+  for (const LinkMark& part : parts) {
+    const std::span<const Vec2> own(points.data() + part.first,
+                                    static_cast<std::size_t>(part.count));
+    for (Face face : triangulate(own)) {
+      for (std::uint32_t& c : face.corners) c += static_cast<std::uint32_t>(part.first);
+      bool shows = false;
+      for (const std::size_t v : textured) shows |= shows_something(face, set.views[v]);
+      if (shows) out.push_back(face);
+    }
+  }
+  return out;
+}
 
 RbfConfig choose_config(const ViewSet& set) {
   RbfConfig config;

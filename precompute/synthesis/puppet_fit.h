@@ -58,6 +58,11 @@ struct ViewSet {
 /// to [0, 1].
 RbfConfig choose_config(const ViewSet& set);
 
+/// The faces of the set, or those that are made where it has none: Delaunay triangles of the first
+/// picture's points, for each link apart, that show something in a picture. Without a picture or
+/// three points: none.
+std::vector<Face> make_mesh(const ViewSet& set);
+
 /// The examples that the network learns: see Puppet for the outputs. Pre: the set was checked.
 Examples puppet_examples(const ViewSet& set);
 

@@ -303,8 +303,8 @@ void add_use_options(Row& t) {
       "held directions and actions by seconds: \"0.0 right; 2.5 play jump 4\", or a file of them",
       " steer play ");
   t.whole("frames", "N", &Settings::frames, 0, 1000000000,
-          "ticks to run; 0 = 12 s (steer), for ever (play, label, path --window)",
-          " steer play label path ");
+          "ticks to run; 0 = 12 s (steer), for ever (play and windows)",
+          " steer play label path points ");
   t.text("mode", "MODE", &Settings::mode,
          "which solved tables; default: the pack's own (steer), paper (dump)",
          " steer dump play report ", "paper|responsive");
@@ -316,7 +316,8 @@ void add_use_options(Row& t) {
       "fade", "LENGTH", &Settings::fade,
       "ticks over which a jump is cross-faded; auto: only those dearer than the threshold, by cost",
       " play ", "auto|off|2|3|4|5|6");
-  t.flag("headless", &Settings::headless, "no window: play the keys and end", " play label path ");
+  t.flag("headless", &Settings::headless, "no window: play the keys and end",
+         " play label path points ");
   t.text(
       "record", "FILE", &Settings::record,
       "film of the run (.mp4) or last picture (.png); steer: the run itself, for --replay (.vsr)",
@@ -349,6 +350,24 @@ void add_export_options(Row& t) {
          "html: the page that takes the pack; default: player.html of the installation",
          " export ");
   t.real("limit", "MB", &Settings::page_limit, 1, 1000, false, "html: largest page", " export ");
+}
+
+void add_points_options(Row& t) {
+  t.flag("window", &Settings::window,
+         "place and drag the points over the views, and see the character move under sliders",
+         " points ")
+      .in_config = false;
+  t.text("script", "FILE", &Settings::script,
+         "edits, one a line: move VIEW POINT X Y; add VIEW X Y; erase POINT; mesh; automatic; "
+         "cut FACE; flip A B; undo; redo",
+         " points ")
+      .in_config = false;
+  t.text("import", "FILE", &Settings::import_file,
+         "an SVG: the nodes of its paths, in order, become the points of --view", " points ")
+      .in_config = false;
+  t.whole("view", "N", &Settings::view, 1, 100000,
+          "which view, from 1; characters come after the views", " points ")
+      .in_config = false;
 }
 
 void add_path_options(Row& t) {
@@ -433,6 +452,7 @@ Row make_table() {
   add_label_options(t);
   add_use_options(t);
   add_export_options(t);
+  add_points_options(t);
   add_path_options(t);
   add_common_options(t);
   return t;

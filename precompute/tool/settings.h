@@ -116,6 +116,8 @@ struct Settings {
   std::string plane = "screen";
   std::string search = "replace";
   bool window = false;
+  std::string import_file;  ///< points: an SVG
+  int view = 1;             ///< points: from 1, characters after the views
 
   // Looking into it.
   std::string what;

@@ -4,6 +4,7 @@
 # The work folder and its stages, in the library, so that tests reach them without the program.
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(pugixml REQUIRED)
 pkg_check_modules(TOOL_DEPS REQUIRED IMPORTED_TARGET libzstd libxxhash sqlite3)
 find_path(TOMLPLUSPLUS_INCLUDE toml++/toml.h REQUIRED)  # header-only: the library is built with exceptions
 target_sources(vsprite_precompute PRIVATE
@@ -23,6 +24,9 @@ target_sources(vsprite_precompute PRIVATE
   tool/label_session.cpp
   tool/labels.cpp
   tool/path_edit.cpp
+  tool/points_edit.cpp
+  tool/points_text.cpp
+  tool/svg_points.cpp
   tool/page.cpp
   tool/path_film.cpp
   tool/path_script.cpp
@@ -40,7 +44,8 @@ target_sources(vsprite_precompute PRIVATE
   tool/views_file.cpp
   tool/work_files.cpp
 )
-target_link_libraries(vsprite_precompute PUBLIC nlohmann_json::nlohmann_json PRIVATE PkgConfig::TOOL_DEPS)
+target_link_libraries(vsprite_precompute PUBLIC nlohmann_json::nlohmann_json PRIVATE PkgConfig::TOOL_DEPS
+  pugixml::pugixml)
 
 add_executable(vsprite
   tool/main.cpp
@@ -59,6 +64,7 @@ add_executable(vsprite
   tool/commands/path.cpp
   tool/commands/path_scene.cpp
   tool/commands/path_window.cpp
+  tool/commands/points.cpp
   tool/commands/report.cpp
 )
 target_link_libraries(vsprite PRIVATE vsprite_flags vsprite_precompute CLI11::CLI11 TBB::tbb)

@@ -33,7 +33,7 @@ void take_faces(TomlTable& from, const char* key, std::uint32_t corners, std::ve
 
 class Parser {
  public:
-  explicit Parser(const std::string& path) : path_(path) {}
+  Parser(const std::string& path, bool is_draft) : path_(path), is_draft_(is_draft) {}
 
   Result<ViewSet> parse(const toml::table& root) {
     TomlTable top(root, path_, error_);
@@ -58,9 +58,11 @@ class Parser {
       return Error{ErrorCode::BadContent, path_ + ": no [[view]], at least two are due"};
     if (set_.parameters.empty() && set_.links.empty())
       return Error{ErrorCode::BadContent, path_ + ": no [[parameter]] and no [[link]], one is due"};
+    if (is_draft_ && set_.views[0].points.empty()) set_.depth.clear();
     if (!set_.depth.empty() && set_.depth.size() != set_.views[0].points.size())
       return Error{ErrorCode::BadContent, path_ + ": depth: " + std::to_string(set_.depth.size()) +
                                               " numbers, one a control point is due"};
+    if (is_draft_) return std::move(set_);
     if (auto ok = check_views(set_); !ok)
       return Error{ok.error().code, path_ + ": " + ok.error().message};
     return std::move(set_);
@@ -92,7 +94,7 @@ class Parser {
     View view;
     const std::string file = from.word("file", "");
     view.name = file.empty() ? "view " + std::to_string(set_.views.size() + 1) : file;
-    view.points = from.points("points", false, "control point");
+    view.points = from.points("points", is_draft_, "control point");
     view.texture_points = from.points("texture_points", true, "control point");
     for (const double d : from.numbers("depth", true)) view.depth.push_back(static_cast<float>(d));
     if (!view.depth.empty() && view.depth.size() != view.points.size())
@@ -162,6 +164,7 @@ class Parser {
   }
 
   const std::string& path_;
+  bool is_draft_;
   ViewSet set_;
   std::optional<Error> error_, failed_;
 };
@@ -199,10 +202,26 @@ SpriteData ring_of_views(const Puppet& puppet) {
 
 }  // namespace
 
+Result<std::string> read_views_text(const std::string& path) {
+  auto text = read_file(path);
+  if (text && text->find('\0') != std::string::npos)
+    return Error{ErrorCode::BadContent,
+                 path +
+                     ": a text is due that names the views, their parameters and control points "
+                     "(VIEWS.toml, see `vsprite help fit`), not a picture or another binary file"};
+  return text;
+}
+
 Result<ViewSet> parse_views(const std::string& text, const std::string& path) {
   const auto parsed = parse_toml(text, path);
   if (!parsed) return parsed.error();
-  return Parser(path).parse(*parsed);
+  return Parser(path, false).parse(*parsed);
+}
+
+Result<ViewSet> parse_draft_views(const std::string& text, const std::string& path) {
+  const auto parsed = parse_toml(text, path);
+  if (!parsed) return parsed.error();
+  return Parser(path, true).parse(*parsed);
 }
 
 Result<void> save_puppet_pack(const std::string& path, const std::vector<Puppet>& puppets) {

@@ -47,9 +47,16 @@
 
 namespace vsprite {
 
+/// The text of a file of views. Errors: those of read_file; BadContent (a picture or another
+/// binary file).
+Result<std::string> read_views_text(const std::string& path);
+
 /// `text` was read from `path`; pictures are read from beside it.
 /// Errors: BadContent (file, line, key, what is due), those of read_png, those of check_views.
 Result<ViewSet> parse_views(const std::string& text, const std::string& path);
+
+/// The same for an editor: points may be missing, and no view is checked.
+Result<ViewSet> parse_draft_views(const std::string& text, const std::string& path);
 
 /// A pack of puppets and nothing else: its samples are the first one's views, one after the other.
 /// Pre: at least one puppet. Errors: those of save_pack and encode_puppets.

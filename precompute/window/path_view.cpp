@@ -12,6 +12,7 @@
 
 #include "film/color.h"
 #include "tool/report.h"
+#include "window/panel.h"
 
 namespace vsprite::window {
 namespace {
@@ -19,26 +20,9 @@ namespace {
 constexpr float kSide = 340, kTime = 64, kGap = 14;
 constexpr float kPointReach = 12, kSegmentReach = 8;  // window px at a scale of 1
 constexpr std::uint64_t kSpriteKey = 1, kGroundKey = 2;
-constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav;
-const ImVec4 kFaint{0.60f, 0.66f, 0.70f, 1}, kText{0.91f, 0.94f, 0.95f, 1},
-    kGood{0.24f, 0.72f, 0.52f, 1}, kBad{0.95f, 0.55f, 0.26f, 1};
-
-void line_of(const ImVec4& color, const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
-}
 
 bool button(const char* label, float width, float height) {
   return ImGui::Button(label, {width, height});
-}
-
-/// The window that covers `area`, and nothing else.
-void begin_panel(const char* name, const Rect& area) {
-  ImGui::SetNextWindowPos({static_cast<float>(area.x), static_cast<float>(area.y)});
-  ImGui::SetNextWindowSize({static_cast<float>(area.width), static_cast<float>(area.height)});
-  ImGui::Begin(name, nullptr, kPlain);
 }
 
 void show_found(const PathFound& found, const Sprite& sprite) {

@@ -41,6 +41,7 @@ struct PuppetParameter {
 struct Face {
   std::array<std::uint32_t, 4> corners{};
   std::uint32_t count = 3;  ///< 3 or 4
+  friend bool operator==(const Face&, const Face&) = default;
 };
 
 /// A view that is drawn from.

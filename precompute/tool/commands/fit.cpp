@@ -21,13 +21,8 @@ Result<int> run_fit(const Settings& settings, Console& console) {
     return Error{ErrorCode::BadSetting, "a file of views is due: VIEWS.toml"};
   if (settings.output.empty() && settings.work.empty())
     return Error{ErrorCode::BadSetting, "-o PACK or --work DIR is due"};
-  const auto text = read_file(settings.film);
+  const auto text = read_views_text(settings.film);
   if (!text) return text.error();
-  if (text->find('\0') != std::string::npos)
-    return Error{ErrorCode::BadContent,
-                 settings.film +
-                     ": a text is due that names the views, their parameters and control points "
-                     "(VIEWS.toml, see `vsprite help fit`), not a picture or another binary file"};
   const auto set = parse_views(*text, settings.film);
   if (!set) return set.error();
   const auto puppets = fit_puppets(*set);

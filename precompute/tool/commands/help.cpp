@@ -17,6 +17,9 @@ constexpr Verb kVerbs[] = {
      "vsprite transitions --work hamster.work --max-per-sample 50", run_transitions},
     {"solve", "FILM|PACK|--work DIR", "transitions -> cost tables of both modes",
      "vsprite solve --work hamster.work --turn-w1 1.5 --directions 16", run_solve},
+    {"points", "VIEWS.toml",
+     "place the control points of views, in a window, from an SVG or by a script",
+     "vsprite points face.toml --window", run_points},
     {"fit", "VIEWS.toml", "views and control points -> puppets, in a pack or a work folder",
      "vsprite fit face.toml -o face.vsp", run_fit},
     {"pack", "FILM|PACK|--work DIR", "all of it -> one file",
@@ -111,7 +114,8 @@ std::string overview_screen() {
       "  info    what a pack contains    validate  check a pack, byte by byte\n"
       "  dump    the numbers, as npy/csv doctor    what is wrong here\n"
       "  path    follow a drawn path     report    what to film next, as a page\n"
-      "  export  as one web page\n"
+      "  export  as one web page         points    place control points over drawn views\n"
+      "  fit     drawn views -> puppets\n"
       "\n"
       "common:  --jobs N  --seed N  --config FILE.toml  --json  --quiet  --progress MODE  "
       "--version  "

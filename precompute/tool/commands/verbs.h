@@ -43,6 +43,7 @@ Result<int> run_label(const Settings&, Console&);
 Result<int> run_train(const Settings&, Console&);
 Result<int> run_transitions(const Settings&, Console&);
 Result<int> run_solve(const Settings&, Console&);
+Result<int> run_points(const Settings&, Console&);
 Result<int> run_fit(const Settings&, Console&);
 Result<int> run_pack(const Settings&, Console&);
 Result<int> run_build(const Settings&, Console&);
