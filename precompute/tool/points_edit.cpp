@@ -62,6 +62,39 @@ Vec2 carried(const std::vector<Face>& faces, const std::vector<Vec2>& from,
   return {to[nearest].x + p.x - from[nearest].x, to[nearest].y + p.y - from[nearest].y};
 }
 
+/// A face becomes triangles about the last point, which lies in it; where that lies on an edge, so
+/// does the face beyond.
+void split_face(std::vector<Face>& faces, std::size_t index, const std::vector<Vec2>& points) {
+  constexpr double kOnEdge = 0.5;  // px
+  const auto last = static_cast<std::uint32_t>(points.size() - 1);
+  const auto edge = [](const Face& face, std::uint32_t c) {
+    return std::minmax(face.corners[c], face.corners[(c + 1) % face.count]);
+  };
+  const Face face = faces[index];
+  faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(index));
+  const auto fan = [&](const Face& of, std::uint32_t c) {
+    faces.push_back({.corners = {of.corners[c], of.corners[(c + 1) % of.count], last}, .count = 3});
+  };
+  for (std::uint32_t c = 0; c < face.count; ++c) {
+    const Vec2 a = points[face.corners[c]], b = points[face.corners[(c + 1) % face.count]];
+    if (std::abs(turn(a, b, points[last])) > kOnEdge * apart(a, b)) {
+      fan(face, c);
+      continue;
+    }
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const Face other = faces[f];
+      std::uint32_t shared = other.count;
+      for (std::uint32_t k = 0; k < other.count; ++k)
+        if (edge(other, k) == edge(face, c)) shared = k;
+      if (shared == other.count) continue;
+      faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(f));
+      for (std::uint32_t k = 0; k < other.count; ++k)
+        if (k != shared) fan(other, k);
+      break;
+    }
+  }
+}
+
 float hundredth(float value) { return std::round(value * 100) / 100; }
 
 }  // namespace
@@ -190,14 +223,7 @@ Result<void> PointsEdit::add(std::size_t sheet, PointLayer layer, Vec2 at) {
   }
   points_of(sheet, layer).back() = at;
   if (!set_.depth.empty()) set_.depth.push_back(nearest ? set_.depth[*nearest] : 0);
-  if (hit.has_value()) {  // its face becomes three or four triangles about it
-    const Face face = set_.faces[*hit];
-    set_.faces.erase(set_.faces.begin() + static_cast<std::ptrdiff_t>(*hit));
-    for (std::uint32_t c = 0; c < face.count; ++c)
-      set_.faces.push_back({.corners = {face.corners[c], face.corners[(c + 1) % face.count],
-                                        static_cast<std::uint32_t>(from.size())},
-                            .count = 3});
-  }
+  if (hit.has_value()) split_face(set_.faces, *hit, points(sheet, layer));
   changed();
   return {};
 }

@@ -321,7 +321,7 @@ void add_use_options(Row& t) {
   t.text(
       "record", "FILE", &Settings::record,
       "film of the run (.mp4) or last picture (.png); steer: the run itself, for --replay (.vsr)",
-      " play label steer path ");
+      " play label steer path points ");
   t.text("replay", "FILE", &Settings::replay,
          "makes a recorded run again; exit 3 at the first tick that comes out otherwise",
          " steer ");

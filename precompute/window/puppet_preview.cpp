@@ -32,7 +32,23 @@ void PuppetPreview::fit(Renderer& renderer, const PointsEdit& edit) {
     parameters.clear();
     for (const PuppetParameter& p : puppet.parameters) parameters.push_back((p.low + p.high) / 2);
   }
+  find_reach();
   fit_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+}
+
+void PuppetPreview::find_reach() {
+  low_ = {HUGE_VALF, HUGE_VALF}, high_ = {-HUGE_VALF, -HUGE_VALF};
+  for (const Puppet& puppet : puppets_) {
+    PuppetPose pose = make_pose(puppet);
+    const auto dims = static_cast<std::size_t>(puppet.net.dims);
+    for (std::size_t k = 0; k + dims <= puppet.net.centers.size(); k += dims) {
+      pose_puppet(puppet, std::span(puppet.net.centers).subspan(k, dims), pose);
+      for (const Vec2 p : pose.points) {
+        low_ = {std::min(low_.x, p.x + pose.center.x), std::min(low_.y, p.y + pose.center.y)};
+        high_ = {std::max(high_.x, p.x + pose.center.x), std::max(high_.y, p.y + pose.center.y)};
+      }
+    }
+  }
 }
 
 void PuppetPreview::follow(Renderer& renderer, const PointsEdit& edit, double seconds) {
@@ -64,15 +80,14 @@ void PuppetPreview::follow(Renderer& renderer, const PointsEdit& edit, double se
 void PuppetPreview::draw(Renderer& renderer, const Rect& area) {
   if (!skin_ || puppets_.empty()) return;
   const Puppet& puppet = puppets_[shown];
-  const Image& picture = puppet.views[0].picture;
+  constexpr float kRoom = 0.94f;
   const float scale =
-      std::min(static_cast<float>(area.width) / static_cast<float>(picture.width),
-               static_cast<float>(area.height) / static_cast<float>(picture.height));
-  const Vec2 corner{
-      static_cast<float>(area.x) +
-          (static_cast<float>(area.width) - scale * static_cast<float>(picture.width)) / 2,
-      static_cast<float>(area.y) +
-          (static_cast<float>(area.height) - scale * static_cast<float>(picture.height)) / 2};
+      kRoom * std::min(static_cast<float>(area.width) / std::max(high_.x - low_.x, 1.0f),
+                       static_cast<float>(area.height) / std::max(high_.y - low_.y, 1.0f));
+  const Vec2 corner{static_cast<float>(area.x) + static_cast<float>(area.width) / 2 -
+                        scale * (low_.x + high_.x) / 2,
+                    static_cast<float>(area.y) + static_cast<float>(area.height) / 2 -
+                        scale * (low_.y + high_.y) / 2};
   pose_puppet(puppet, parameters, pose_);
   renderer.draw_puppet(puppet, pose_, *skin_,
                        {corner.x + scale * pose_.center.x, corner.y + scale * pose_.center.y},

@@ -32,9 +32,11 @@ class PuppetPreview {
 
  private:
   void fit(Renderer& renderer, const PointsEdit& edit);
+  void find_reach();
 
   std::vector<Puppet> puppets_;
   PuppetPose pose_;
+  Vec2 low_{}, high_{};  ///< px: what the examples' poses cover
   std::optional<PuppetSkin> skin_;
   std::size_t skin_of_ = 0;
   std::size_t version_ = 0;  ///< of the edit that was fitted last

@@ -14,19 +14,32 @@ namespace vsprite {
 namespace {
 
 // A smooth map of `dims` parameters to three numbers, at seeded places.
-Examples smooth_examples(int dims, int count, std::uint64_t seed = 1) {
-  Random random{seed};
-  Examples out{.dims = dims, .outputs = 3, .x = {}, .y = {}};
-  for (int i = 0; i < count; ++i) {
-    double sum = 0, first = 0;
-    for (int d = 0; d < dims; ++d) {
-      const double x = random.unit();
-      if (d == 0) first = x;
-      sum += x * (d + 1);
-      out.x.push_back(x);
-    }
-    out.y.insert(out.y.end(), {100 * std::sin(sum), 50 * first * first - sum, std::cos(3 * first)});
+// A smooth map of the places to three numbers.
+void take_values(Examples& e) {
+  e.y.clear();
+  for (int i = 0; i < e.count(); ++i) {
+    const double* x = &e.x[static_cast<std::size_t>(i * e.dims)];
+    double sum = 0;
+    for (int d = 0; d < e.dims; ++d) sum += x[d] * (d + 1);
+    e.y.insert(e.y.end(), {100 * std::sin(sum), 50 * x[0] * x[0] - sum, std::cos(3 * x[0])});
   }
+}
+
+Examples smooth_examples(int dims, int count) {
+  Random random{1};
+  Examples out{.dims = dims, .outputs = 3, .x = {}, .y = {}};
+  for (int i = 0; i < count * dims; ++i) out.x.push_back(random.unit());
+  take_values(out);
+  return out;
+}
+
+// At places that keep apart: multiples of numbers far from any fraction.
+Examples spread_examples(int dims, int count) {
+  const double steps[] = {0.6180339887, 0.7548776662, 0.8191725134};
+  Examples out{.dims = dims, .outputs = 3, .x = {}, .y = {}};
+  for (int i = 0; i < count; ++i)
+    for (int d = 0; d < dims; ++d) out.x.push_back(std::fmod(0.5 + i * steps[d], 1.0));
+  take_values(out);
   return out;
 }
 
@@ -39,6 +52,7 @@ std::vector<double> value(const RbfNetwork& net, std::vector<double> x) {
 void expect_equal_to_reference(const Examples& e, const RbfConfig& config, const char* what) {
   const auto net = fit_rbf(e, config);
   ASSERT_TRUE(net) << what << net.error().message;
+  ASSERT_LT(reference::condition(e, config), 1e6) << what << " degree " << config.degree;
   Random random{99};
   for (int k = 0; k < 20; ++k) {
     std::vector<double> x;
@@ -54,15 +68,46 @@ void expect_equal_to_reference(const Examples& e, const RbfConfig& config, const
 
 TEST(RbfFit, EqualsTheDenseReferenceForEveryKernelAndDegree) {
   for (int dims = 1; dims <= 3; ++dims) {
-    const Examples e = smooth_examples(dims, dims == 1 ? 6 : 14);
+    const Examples e = spread_examples(dims, dims == 1 ? 6 : 14);
     for (int k = 0; k < kKernelCount; ++k)
       for (int degree = -1; degree <= 1; ++degree) {
         const RbfConfig config{.kernel = static_cast<Kernel>(k),
                                .degree = degree,
                                .allow_low_degree = true,
-                               .width = k == 1 || k == 3 ? 0.1 : 0.3};  // condition below 1e6
+                               .width = k == 1 || k == 3 ? 0.1 : 0.3};
         expect_equal_to_reference(e, config, kernel_name(config.kernel).data());
       }
+  }
+}
+
+// Where digits are lost whatever one does, f still goes through the examples.
+TEST(RbfFit, KeepsTheResidualOfIllConditionedSystems) {
+  for (int dims = 1; dims <= 3; ++dims) {
+    const int count = dims == 1 ? 8 : 20;
+    Examples e = spread_examples(dims, count);
+    for (int k = 0; k < kKernelCount; ++k) {
+      const double apart = k == 0 ? 1e-6 : 3e-5;  // two examples lie close together
+      for (int d = 0; d < dims; ++d)
+        e.x[static_cast<std::size_t>((count - 1) * dims + d)] =
+            e.x[static_cast<std::size_t>((count - 2) * dims + d)] + apart * (d + 1);
+      take_values(e);
+      for (int degree = -1; degree <= 1; ++degree) {
+        const RbfConfig config{.kernel = static_cast<Kernel>(k),
+                               .degree = degree,
+                               .allow_low_degree = true,
+                               .width = 0.15};
+        ASSERT_GT(reference::condition(e, config), 1e6) << k;
+        const auto net = fit_rbf(e, config);
+        ASSERT_TRUE(net) << net.error().message;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+          const auto at = e.x.begin() + static_cast<std::ptrdiff_t>(i) * dims;
+          const auto found = value(*net, {at, at + dims});
+          for (std::size_t m = 0; m < 3; ++m)
+            EXPECT_NEAR(found[m], e.y[3 * i + m], 1e-9 * 100)  // the examples reach to 100
+                << kernel_name(config.kernel) << " degree " << degree << " in " << dims;
+        }
+      }
+    }
   }
 }
 

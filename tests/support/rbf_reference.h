@@ -4,7 +4,9 @@
 // The textbook's interpolant in long double: dense, plain Gaussian elimination, libm.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -65,11 +67,10 @@ inline void eliminate(std::vector<Row>& a) {
     for (std::size_t j = n; j < a[i].size(); ++j) a[i][j] /= a[i][i];
 }
 
-// The interpolant's value at `at` (D), one number an output.
-inline Row interpolate(const Examples& e, const RbfConfig& config, const double* at) {
+// The interpolant's system, (N + terms, N + terms + outputs): the last columns are the right side.
+inline std::vector<Row> system_of(const Examples& e, const RbfConfig& config) {
   const int n = e.count(), dims = e.dims;
   const int terms = config.degree < 0 ? 0 : config.degree == 0 ? 1 : 1 + dims;
-  const auto term = [&](const double* x, int t) { return t == 0 ? Real(1) : Real(x[t - 1]); };
   const bool negative = config.kernel == Kernel::Linear || config.kernel == Kernel::Multiquadric;
   std::vector<Row> a(std::size_t(n + terms), Row(std::size_t(n + terms + e.outputs), 0));
   for (int i = 0; i < n; ++i) {
@@ -79,10 +80,43 @@ inline Row interpolate(const Examples& e, const RbfConfig& config, const double*
           config.kernel, distance(x, &e.x[std::size_t(j * dims)], dims, config), config.width);
     a[std::size_t(i)][std::size_t(i)] += negative ? -config.ridge : config.ridge;
     for (int t = 0; t < terms; ++t)
-      a[std::size_t(i)][std::size_t(n + t)] = a[std::size_t(n + t)][std::size_t(i)] = term(x, t);
+      a[std::size_t(i)][std::size_t(n + t)] = a[std::size_t(n + t)][std::size_t(i)] =
+          t == 0 ? Real(1) : Real(x[t - 1]);
     for (int m = 0; m < e.outputs; ++m)
       a[std::size_t(i)][std::size_t(n + terms + m)] = e.y[std::size_t(i * e.outputs + m)];
   }
+  return a;
+}
+
+// Of that system, in the norm of the largest row sum.
+inline Real condition(const Examples& e, const RbfConfig& config) {
+  std::vector<Row> a = system_of(e, config);
+  const std::size_t n = a.size();
+  const auto largest = [n](const std::vector<Row>& rows, std::size_t from) {
+    Real most = 0;
+    for (const Row& row : rows) {
+      Real sum = 0;
+      for (std::size_t j = from; j < from + n; ++j) sum += std::abs(row[j]);
+      most = std::max(most, sum);
+    }
+    return most;
+  };
+  const Real size = largest(a, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    a[i].assign(a[i].begin(), a[i].begin() + std::ptrdiff_t(n));
+    a[i].resize(2 * n, 0);
+    a[i][n + i] = 1;
+  }
+  eliminate(a);
+  return size * largest(a, n);
+}
+
+// The interpolant's value at `at` (D), one number an output.
+inline Row interpolate(const Examples& e, const RbfConfig& config, const double* at) {
+  const int n = e.count(), dims = e.dims;
+  const int terms = config.degree < 0 ? 0 : config.degree == 0 ? 1 : 1 + dims;
+  const auto term = [&](const double* x, int t) { return t == 0 ? Real(1) : Real(x[t - 1]); };
+  std::vector<Row> a = system_of(e, config);
   eliminate(a);
   Row out(std::size_t(e.outputs), 0);
   for (int m = 0; m < e.outputs; ++m) {
