@@ -83,10 +83,10 @@ std::uint64_t block_difference(const std::uint8_t* a, const std::uint8_t* b) noe
   for (int c = 0; c < kBlockCells; ++c) {
     int squares = 0;
     for (int k = 1; k < 4; ++k) {
-      const int d = a[k * kBlockCells + c] - b[k * kBlockCells + c];
+      const int d = a[4 * c + k] - b[4 * c + k];
       squares += d * d;
     }
-    sum += static_cast<std::uint64_t>(std::min(a[c], b[c])) * static_cast<std::uint64_t>(squares);
+    sum += static_cast<std::uint64_t>(std::min(a[4 * c], b[4 * c])) * static_cast<std::uint64_t>(squares);
   }
   return sum;
 }
@@ -118,10 +118,9 @@ CellImage make_cells(const SampleRow& row, const Image& image, double cell, int 
       if (alpha == 0) continue;
       shows = true;
       result.coverage += static_cast<std::uint32_t>(alpha);
-      cells[c] = static_cast<std::uint8_t>(alpha);
+      cells[4 * c] = static_cast<std::uint8_t>(alpha);
       for (std::size_t k = 0; k < 3; ++k) {
-        cells[(k + 1) * kBlockCells + c] =
-            static_cast<std::uint8_t>((sum.color[k] + sum.alpha / 2) / sum.alpha);
+        cells[4 * c + k + 1] = static_cast<std::uint8_t>((sum.color[k] + sum.alpha / 2) / sum.alpha);
       }
     }
     if (!shows) continue;
@@ -171,7 +170,7 @@ std::vector<std::int16_t> coarse_coverage(const CellImage& image, const BlockOrd
     const int y = order[k] / across * kBlockSide / kCoarse;
     const int x = order[k] % across * kBlockSide / kCoarse;
     std::int16_t& sum = sums[static_cast<std::size_t>(y * squares + x)];
-    for (int c = 0; c < kBlockCells; ++c) sum = static_cast<std::int16_t>(sum + cells[c]);
+    for (int c = 0; c < kBlockBytes; c += 4) sum = static_cast<std::int16_t>(sum + cells[c]);
   });
   return sums;
 }
@@ -180,13 +179,18 @@ std::vector<std::uint8_t> block_means(const CellImage& image, std::size_t count)
   std::vector<std::uint8_t> means((count + kBlockCells - 1) / kBlockCells * kBlockBytes, 0);
   for_each_block(image, [&](std::size_t k, const std::uint8_t* cells) {
     if (k >= count) return;
-    const std::uint8_t least = *std::min_element(cells, cells + kBlockCells);
+    std::uint8_t least = 255;
+    int sums[3] = {};
+    for (int c = 0; c < kBlockBytes; c += 4) {
+      least = std::min(least, cells[c]);
+      for (int n = 0; n < 3; ++n) sums[n] += cells[c + n + 1];
+    }
     if (least == 0) return;
-    std::uint8_t* mean = means.data() + k / kBlockCells * kBlockBytes + k % kBlockCells;
-    *mean = least;
-    for (std::size_t c = kBlockCells; c < kBlockBytes; c += kBlockCells)
-      mean[c] = static_cast<std::uint8_t>(
-          (std::accumulate(cells + c, cells + c + kBlockCells, 0) + kBlockCells / 2) / kBlockCells);
+    std::uint8_t* mean = means.data() + 4 * k;
+    *mean++ = least;
+    for (const int sum : sums) {
+      *mean++ = static_cast<std::uint8_t>((sum + kBlockCells / 2) / kBlockCells);
+    }
   });
   return means;
 }

@@ -44,7 +44,7 @@ struct LineAllocator {
 /// One picture. Blocks are numbered along the set's block order.
 struct CellImage {
   std::array<std::uint64_t, kBlockWords> seen{};  ///< bit k: block k shows something
-  /// (blocks seen, 4, 16): coverage 0..255, then red, green, blue, straight, 0 where nothing shows.
+  /// (blocks seen, 16, 4): coverage 0..255, then red, green, blue, straight, 0 where nothing shows.
   std::vector<std::uint8_t, LineAllocator<std::uint8_t>> cells;
   std::uint32_t coverage = 0;  ///< sum of coverage
 };
@@ -67,7 +67,7 @@ void reorder(CellImage& image, const BlockOrder& order);
 std::vector<std::int16_t> coarse_coverage(const CellImage& image, const BlockOrder& order,
                                           int grid);
 
-/// Of the first `count` blocks of the order, sixteen after sixteen as a block of cells: the least
+/// Of the first `count` blocks of the order, a block as a cell, padded to whole blocks: the least
 /// coverage in the block, then its mean red, green, blue, rounded; 0 where a cell shows nothing.
 std::vector<std::uint8_t> block_means(const CellImage& image, std::size_t count);
 

@@ -36,7 +36,7 @@ detail::PairTable make_table(const FeatureSet& set, const Classifier& classifier
   table.fade = static_cast<float>(set.v0);
   table.limit = limit * (1 + kMargin);
   const int squares = set.grid / 8 * (set.grid / 8);
-  table.coarse_size = static_cast<std::size_t>((squares + 15) / 16 * 16);
+  table.coarse_size = static_cast<std::size_t>((squares + 31) / 32 * 32);
   for (const FeatureSample& s : set.samples) {
     table.speed.push_back(s.speed), table.angle.push_back(s.heading);
     table.area.push_back(s.area), table.red.push_back(s.mean_color[0]);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdlib>
 
 #include "similarity/kernels.h"
 
@@ -19,106 +20,154 @@ HWY_BEFORE_NAMESPACE();
 namespace vsprite::detail::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A block is 16 cells: one register of 16-bit lanes, or two or four where registers are short.
-using Cells = hn::CappedTag<std::int16_t, kBlockCells>;
-using Bytes = hn::Rebind<std::uint8_t, Cells>;
-using Sums = hn::RepartitionToWide<Cells>;
+using Squares = hn::CappedTag<std::int16_t, 32>;  // coarse ones, see coarse_difference
 
-constexpr std::size_t kAhead = 4;        // pairs between a prefetch and its use
-constexpr int kBlocksBetweenChecks = 4;  // 4 blocks add less than 2^32: a 32-bit sum is exact
+constexpr std::size_t kAhead = 4;  // pairs between a prefetch and its use
+constexpr int kBlocksBetweenChecks = 4;
 
-// Sum of w d^2 in 16-bit products: d^2 < 2^16 is taken as d^2 - 2^15, which is signed, and the
-// bias 3 x 2^15 x sum of w is put back when the lanes are added up.
-constexpr int kBias = 3 << 15;
+#if HWY_TARGET == HWY_SCALAR  // which cannot see four bytes as one lane
 
-// `color` and `weight` since the last check, `overlap` before it.
 struct Accumulator {
-  hn::Vec<Sums> color, color_odd, weight, weight_odd, overlap;
+  std::uint64_t color;
+  std::uint32_t overlap;
 };
 
-HWY_INLINE void clear(Accumulator& sum) {
-  sum.color = sum.color_odd = sum.weight = sum.weight_odd = hn::Zero(Sums());
-}
+HWY_INLINE void clear(Accumulator& sum) { sum = {}; }
 
-HWY_INLINE hn::Vec<Cells> load(const std::uint8_t* HWY_RESTRICT cells) {
-  return hn::PromoteTo(Cells(), hn::Load(Bytes(), cells));
-}
-
-HWY_INLINE hn::Vec<Cells> load(const std::int16_t* HWY_RESTRICT cells) {
-  return hn::Load(Cells(), cells);
-}
-
-// `a` in bytes, or widened beforehand where it is compared with many.
-template <class Cell>
-HWY_INLINE void add_block(const Cell* HWY_RESTRICT a, const std::uint8_t* HWY_RESTRICT b,
-                          Accumulator& sum) {
-  const Cells d;
-  const Sums d32;
-  const auto one = hn::Set(d, std::int16_t{1});
-  const auto sign = hn::Set(d, std::int16_t{-0x8000});
-  for (std::size_t c = 0; c < kBlockCells; c += hn::Lanes(d)) {
-    const auto w = hn::Min(load(a + c), load(b + c));
-    sum.weight = hn::ReorderWidenMulAccumulate(d32, w, one, sum.weight, sum.weight_odd);
-    for (std::size_t k = kBlockCells; k < kBlockBytes; k += kBlockCells) {
-      const auto difference = hn::Sub(load(a + k + c), load(b + k + c));
-      const auto square = hn::Xor(hn::Mul(difference, difference), sign);
-      sum.color = hn::ReorderWidenMulAccumulate(d32, w, square, sum.color, sum.color_odd);
+template <int kLess>
+HWY_INLINE void add_block(const std::uint8_t* a, const std::uint8_t* b, Accumulator& sum) {
+  for (std::size_t c = 0; c < kBlockBytes; c += 4) {
+    const std::uint32_t weight = std::min(a[c], b[c]);
+    std::uint32_t squares = 0;
+    for (std::size_t k = c + 1; k < c + 4; ++k) {
+      const int apart = std::max(std::abs(a[k] - b[k]) - kLess, 0);
+      squares += static_cast<std::uint32_t>(apart * apart);
     }
+    sum.color += weight * squares;
+    sum.overlap += weight;
   }
 }
 
-// The colour sum since the last check.
-HWY_INLINE std::uint32_t take_color(Accumulator& sum) {
-  const Sums d32;
-  const auto weight = hn::Add(sum.weight, sum.weight_odd);
-  const auto color = hn::Add(hn::Add(sum.color, sum.color_odd),
-                             hn::Mul(weight, hn::Set(d32, std::int32_t{kBias})));
-  sum.overlap = hn::Add(sum.overlap, weight);
-  clear(sum);
-  return static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(d32, color)));
+HWY_INLINE void take_color(Accumulator&) {}
+HWY_INLINE std::uint64_t color_sum(const Accumulator& sum) { return sum.color; }
+HWY_INLINE std::uint32_t overlap_sum(const Accumulator& sum) { return sum.overlap; }
+
+#else
+
+// A block is 16 cells of four bytes: one register, or two or four where registers are short.
+using Bytes = hn::CappedTag<std::uint8_t, kBlockBytes>;
+using Cells = hn::Repartition<std::uint32_t, Bytes>;  // a lane a cell
+using Halves = hn::Repartition<std::uint16_t, Bytes>;
+using Totals = hn::Repartition<std::uint64_t, Bytes>;
+
+// A lane takes at most 4 x 255 x 3 x 255^2 from a block: 21 blocks add less than 2^32.
+struct Accumulator {
+  hn::Vec<Cells> color;   // since the last check
+  hn::Vec<Totals> total;  // before it
+  hn::Vec<Cells> overlap;
+};
+
+HWY_INLINE void clear(Accumulator& sum) {
+  sum.color = sum.overlap = hn::Zero(Cells());
+  sum.total = hn::Zero(Totals());
 }
 
+// Red, green and blue squared and added up, a cell a lane; the first byte is left out.
+HWY_INLINE hn::Vec<Cells> color_squares(hn::Vec<Bytes> apart) {
+  const Cells cells;
+  const auto red_blue = hn::ShiftRight<8>(hn::BitCast(Halves(), apart));
+  const auto green = hn::And(hn::BitCast(cells, apart), hn::Set(cells, 0x00ff0000u));
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
+  // Adds neighbours up here: pmaddwd.
+  const hn::RebindToSigned<Halves> i16;
+  const hn::RebindToSigned<Cells> i32;
+  auto unused = hn::Zero(i32);
+  const auto g = hn::BitCast(i16, green), rb = hn::BitCast(i16, red_blue);
+  const auto sum = hn::ReorderWidenMulAccumulate(i32, g, g, hn::Zero(i32), unused);
+  return hn::BitCast(cells, hn::ReorderWidenMulAccumulate(i32, rb, rb, sum, unused));
+#else
+  const auto squares = hn::BitCast(cells, hn::Mul(red_blue, red_blue));
+  const auto g = hn::ShiftRight<16>(green);
+  return hn::Add(hn::Add(hn::ShiftRight<16>(squares), hn::And(squares, hn::Set(cells, 0xffffu))),
+                 hn::Mul(g, g));
+#endif
+}
+
+// `kLess`: taken off every difference, in code values.
+template <int kLess>
+HWY_INLINE void add_block(const std::uint8_t* HWY_RESTRICT a, const std::uint8_t* HWY_RESTRICT b,
+                          Accumulator& sum) {
+  const Bytes d;
+  const Cells cells;
+  for (std::size_t c = 0; c < kBlockBytes; c += hn::Lanes(d)) {
+    const auto x = hn::Load(d, a + c), y = hn::Load(d, b + c);
+    const auto smaller = hn::Min(x, y);
+    auto apart = hn::Sub(hn::Max(x, y), smaller);
+    if constexpr (kLess > 0) apart = hn::SaturatedSub(apart, hn::Set(d, std::uint8_t{kLess}));
+    const auto weight = hn::And(hn::BitCast(cells, smaller), hn::Set(cells, 0xffu));
+    sum.color = hn::Add(sum.color, hn::Mul(weight, color_squares(apart)));
+    sum.overlap = hn::Add(sum.overlap, weight);
+  }
+}
+
+// Before 21 blocks are added.
+HWY_INLINE void take_color(Accumulator& sum) {
+  const Totals d;
+  const auto color = hn::BitCast(d, sum.color);
+  const auto low = hn::And(color, hn::Set(d, 0xffffffffu));
+  sum.total = hn::Add(sum.total, hn::Add(low, hn::ShiftRight<32>(color)));
+  sum.color = hn::Zero(Cells());
+}
+
+HWY_INLINE std::uint64_t color_sum(const Accumulator& sum) {
+  return hn::GetLane(hn::SumOfLanes(Totals(), sum.total));
+}
+
+HWY_INLINE std::uint32_t overlap_sum(const Accumulator& sum) {
+  return hn::GetLane(hn::SumOfLanes(Cells(), sum.overlap));
+}
+
+#endif
+
 // False as soon as the colour sum exceeds `budget`; `sums` are then of no use.
-template <class Cell>
-HWY_INLINE bool compare(const CellImage& a, const Cell* cells_a, const CellImage& b,
-                        std::uint64_t budget, PairSums& sums) {
-  const std::uint8_t* cells_b = b.cells.data();
+template <bool kBudget>
+HWY_INLINE bool compare(const CellImage& a, const CellImage& b, std::uint64_t budget,
+                        PairSums& sums) {
+  const std::uint8_t *cells_a = a.cells.data(), *cells_b = b.cells.data();
   Accumulator sum;
   clear(sum);
-  sum.overlap = hn::Zero(Sums());
-  std::uint64_t color = 0;
   int pending = 0;
   for (std::size_t w = 0; w < a.seen.size(); ++w) {
     const std::uint64_t in_a = a.seen[w], in_b = b.seen[w];
     for (std::uint64_t both = in_a & in_b; both != 0; both &= both - 1) {
       const std::uint64_t below = (both & (~both + 1)) - 1;
-      add_block(cells_a + kBlockBytes * std::popcount(in_a & below),
-                cells_b + kBlockBytes * std::popcount(in_b & below), sum);
+      add_block<0>(cells_a + kBlockBytes * std::popcount(in_a & below),
+                   cells_b + kBlockBytes * std::popcount(in_b & below), sum);
       if (++pending < kBlocksBetweenChecks) continue;
       pending = 0;
-      color += take_color(sum);
-      if (color > budget) return false;
+      take_color(sum);
+      if (kBudget && color_sum(sum) > budget) return false;
     }
     cells_a += kBlockBytes * std::popcount(in_a);
     cells_b += kBlockBytes * std::popcount(in_b);
   }
-  color += take_color(sum);
-  sums.color = color;
-  sums.overlap = static_cast<std::uint32_t>(hn::GetLane(hn::SumOfLanes(Sums(), sum.overlap)));
-  return color <= budget;
+  take_color(sum);
+  sums.color = color_sum(sum);
+  sums.overlap = overlap_sum(sum);
+  return sums.color <= budget;
 }
 
 PairSums CompareCells(const CellImage& a, const CellImage& b) {
   PairSums sums;
-  compare(a, a.cells.data(), b, ~std::uint64_t{0}, sums);
+  compare<false>(a, b, ~std::uint64_t{0}, sums);
   return sums;
 }
 
 // Sum of |A_i - A_j| over coarse squares, a lower bound of the sum of |a_i - a_j|.
 HWY_INLINE std::uint32_t coarse_difference(const std::int16_t* HWY_RESTRICT a,
                                            const std::int16_t* HWY_RESTRICT b, std::size_t count) {
-  const Cells d;
-  const Sums d32;
+  const Squares d;
+  const hn::RepartitionToWide<Squares> d32;
   const auto one = hn::Set(d, std::int16_t{1});
   auto sum = hn::Zero(d32), odd = hn::Zero(d32);
   for (std::size_t c = 0; c < count; c += hn::Lanes(d)) {
@@ -138,8 +187,8 @@ struct Left {
 };
 
 template <bool kPerArea>
-HWY_INLINE void filter_cheap(const PairTable& t, std::size_t i, std::size_t begin, std::size_t end,
-                             Left& left) {
+HWY_NOINLINE void filter_cheap(const PairTable& t, std::size_t i, std::size_t begin,
+                               std::size_t end, Left& left) {
   const hn::ScalableTag<float> d;
   const auto circle = hn::Set(d, 6.28318530717958647692f), zero = hn::Zero(d);
   const auto slack = hn::Set(d, 1e-6f);  // two roundings of an angle
@@ -184,7 +233,7 @@ HWY_INLINE void filter_cheap(const PairTable& t, std::size_t i, std::size_t begi
 }
 
 // Takes coarse coverage into the bounds.
-HWY_INLINE void filter_coarse(const PairTable& t, std::size_t i, Left& left) {
+HWY_NOINLINE void filter_coarse(const PairTable& t, std::size_t i, Left& left) {
   const std::int16_t* coarse = t.coarse.data() + i * t.coarse_size;
   std::size_t count = 0;
   for (std::size_t n = 0; n < left.count; ++n) {
@@ -204,29 +253,16 @@ HWY_INLINE void filter_coarse(const PairTable& t, std::size_t i, Left& left) {
 // Whether the colour sum of the most telling blocks stays within `budget`, by their means: with
 // least coverages u, v and 16 cells a block, sum of min(a, b) |c - d|^2 >= 16 min(u, v) |mean c -
 // mean d|^2 (Jensen). Two rounded means may lie one code value further apart than the means do.
-HWY_INLINE bool within_by_means(const std::uint8_t* HWY_RESTRICT a,
-                                const std::uint8_t* HWY_RESTRICT b, std::size_t size,
-                                std::uint64_t budget) {
-  const Cells d;
-  const Sums d32;
-  const auto one = hn::Set(d, std::int16_t{1}), zero = hn::Zero(d);
-  const auto sign = hn::Set(d, std::int16_t{-0x8000});
+HWY_NOINLINE bool within_by_means(const std::uint8_t* HWY_RESTRICT a,
+                                  const std::uint8_t* HWY_RESTRICT b, std::size_t size,
+                                  std::uint64_t budget) {
   Accumulator sum;
   clear(sum);
-  sum.overlap = hn::Zero(d32);
   for (std::size_t block = 0; block < size; block += kBlockBytes) {
-    for (std::size_t c = block; c < block + kBlockCells; c += hn::Lanes(d)) {
-      const auto w = hn::Min(load(a + c), load(b + c));
-      sum.weight = hn::ReorderWidenMulAccumulate(d32, w, one, sum.weight, sum.weight_odd);
-      for (std::size_t k = kBlockCells; k < kBlockBytes; k += kBlockCells) {
-        const auto x = load(a + k + c), y = load(b + k + c);
-        const auto apart = hn::Max(hn::Sub(hn::Sub(hn::Max(x, y), hn::Min(x, y)), one), zero);
-        const auto square = hn::Xor(hn::Mul(apart, apart), sign);
-        sum.color = hn::ReorderWidenMulAccumulate(d32, w, square, sum.color, sum.color_odd);
-      }
-    }
+    add_block<1>(a + block, b + block, sum);
   }
-  return kBlockCells * std::uint64_t{take_color(sum)} <= budget;
+  take_color(sum);
+  return kBlockCells * color_sum(sum) <= budget;
 }
 
 // The largest colour sum that keeps the bound within the limit.
@@ -239,7 +275,7 @@ HWY_INLINE std::uint64_t color_budget(const PairTable& t, std::size_t i, std::si
 }
 
 // Takes the means of the most telling blocks into account, and leaves budgets.
-HWY_INLINE void filter_means(const PairTable& t, std::size_t i, Left& left) {
+HWY_NOINLINE void filter_means(const PairTable& t, std::size_t i, Left& left) {
   const std::uint8_t* means = t.means.data() + i * t.mean_size;
   std::size_t count = 0;
   for (std::size_t n = 0; n < left.count; ++n) {
@@ -266,10 +302,6 @@ std::size_t FilterRow(const PairTable& t, std::size_t i, std::size_t begin, std:
   compared += left.count;
   if (left.count == 0) return 0;
   const CellImage& a = *t.cells[i];
-  HWY_ALIGN std::int16_t wide[kMaxGrid * kMaxGrid * 4];
-  for (std::size_t c = 0; c < a.cells.size(); c += hn::Lanes(Cells())) {
-    hn::Store(load(a.cells.data() + c), Cells(), wide + c);
-  }
   std::size_t count = 0;
   for (std::size_t n = 0; n < left.count; ++n) {
     if (n + kAhead < left.count) {
@@ -279,7 +311,7 @@ std::size_t FilterRow(const PairTable& t, std::size_t i, std::size_t begin, std:
     const std::size_t j = left.column[n];
     Candidate& candidate = out[count];
     candidate.j = left.column[n];
-    if (compare(a, wide, *t.cells[j], left.budget[n], candidate.sums)) ++count;
+    if (compare<true>(a, *t.cells[j], left.budget[n], candidate.sums)) ++count;
   }
   return count;
 }

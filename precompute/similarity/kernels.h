@@ -28,9 +28,9 @@ struct PairTable {
   static constexpr std::size_t kPadding = 16;
   std::vector<float> speed, angle, area, red, green, blue, coverage;
   std::vector<std::int16_t> coarse;  ///< (N, coarse_size) coverage of 8 x 8 cells
-  std::size_t coarse_size = 0;       ///< a multiple of 16, padded with 0
-  /// (N, mean_size) of the most telling blocks, 16 after 16: the least coverage in the block, then
-  /// its mean red, green, blue, rounded; as a block of cells.
+  std::size_t coarse_size = 0;       ///< a multiple of 32, padded with 0
+  /// (N, mean_size) of the most telling blocks, as cells of a block: the least coverage in each,
+  /// then its mean red, green, blue, rounded.
   std::vector<std::uint8_t, LineAllocator<std::uint8_t>> means;
   std::size_t mean_size = 0;  ///< a multiple of kBlockBytes
   std::vector<const CellImage*> cells;

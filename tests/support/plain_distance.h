@@ -26,10 +26,10 @@ inline std::vector<std::uint8_t> dense_cells(const FeatureSet& set, std::size_t 
     if ((image.seen[k / 64] >> k % 64 & 1) == 0) continue;
     const std::size_t block = set.block_order[k];
     for (std::size_t c = 0; c < 4 * kBlockCells; ++c) {
-      const std::size_t cell = c % kBlockCells;
+      const std::size_t cell = c / 4;
       const std::size_t y = block / across * kBlockSide + cell / kBlockSide;
       const std::size_t x = block % across * kBlockSide + cell % kBlockSide;
-      planes[c / kBlockCells * side * side + y * side + x] = image.cells[stored + c];
+      planes[c % 4 * side * side + y * side + x] = image.cells[stored + c];
     }
     stored += 4 * kBlockCells;
   }
