@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// keyer_bench [speed|truth|chosen|unseen|decision|temporal|ours|0..13]... - this keyer beside what
-// is free, in one run:
+// keyer_bench [speed|truth|chosen|chosen2|unseen|decision|temporal|ours|0..13|FOLDER/]... - this
+// keyer beside what is free, in one run:
 //
 //   speed    frames/s at 1080p on one core, the rivals' reading and writing of frames taken off
 //   truth    the bundled film against its exact matte
 //   chosen   the bundled film's fish before 14 screens: the films that constants were chosen with
-//   unseen   a ball of fur with a veil before the same screens: no constant was chosen with them
+//   chosen2  a ball of fur with a veil before the same screens: looked at since, so chosen with
+//   unseen   a dragonfly and a long-haired animal before 12 other screens: no choice has seen them
 //   decision grey parts read as opaque or as translucent, on the fish and on a grey mouse
 //   temporal whether mixing with the neighbours in time would lower the flicker
-//   ours     the rivals are left out of truth and chosen: for choosing
-//   0..13    only these of the 14 screens
+//   ours     the rivals are left out of truth and the chosen: for choosing
+//   0..13    only these of a pool's screens
+//   FOLDER/  (with a slash) a sheet of every film is drawn there
 //
 // ffmpeg's filters are given the screen's true colour and the best of their settings is reported,
 // for each film; this keyer and closed-form matting (seeds from this keyer's alpha, widened) are
@@ -327,12 +329,52 @@ void print(const char* name, const Errors& e) {
               e.flicker, e.rest);
 }
 
+// Where frames are drawn, empty: nowhere.
+std::string picture_folder;
+
+// Three frames of a film, each a row: as filmed, true matte, ours, what it has too much (red) and
+// too little (blue).
+void draw(const Case& c, const Mattes& mattes) {
+  const int w = c.frames[0].width, h = c.frames[0].height;
+  Image sheet{4 * w, 3 * h, std::vector<std::uint8_t>(static_cast<std::size_t>(48 * w * h), 255)};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t f = k * (c.frames.size() - 1) / 2;
+    const Image filmed = to_image(c.frames[f]);
+    for (int y = 0; y < h; ++y)
+      for (int x = 0; x < w; ++x) {
+        const auto i = static_cast<std::size_t>(y * w + x);
+        const auto at = [&](int column) {
+          return sheet.rgba.data() +
+                 4 * ((k * static_cast<std::size_t>(h) + static_cast<std::size_t>(y)) *
+                          static_cast<std::size_t>(4 * w) +
+                      static_cast<std::size_t>(column * w + x));
+        };
+        const auto gray = [](float v) { return static_cast<std::uint8_t>(255 * v + 0.5f); };
+        const float e = mattes[f][i] - c.truth[f][i];
+        std::copy_n(filmed.rgba.data() + 4 * i, 3, at(0));
+        std::fill_n(at(1), 3, gray(c.truth[f][i]));
+        std::fill_n(at(2), 3, gray(mattes[f][i]));
+        at(3)[0] = gray(1 - std::max(-e, 0.0f));
+        at(3)[1] = gray(1 - std::abs(e));
+        at(3)[2] = gray(1 - std::max(e, 0.0f));
+      }
+  }
+  std::string name = c.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  if (const auto png = encode_png(sheet)) {
+    std::ofstream out(picture_folder + "/" + name + ".png", std::ios::binary);
+    out.write(reinterpret_cast<const char*>(png->data()),
+              static_cast<std::streamsize>(png->size()));
+  }
+}
+
 void compare(const Case& c, const testing::TempFolder& folder, std::size_t closed_form_every,
              int& won, int& all) {
   std::printf("  %s\n", c.name.c_str());
   const Mattes mattes = key_ours(c);
   const Errors ours = measure(c, mattes);
   print("this keyer", ours);
+  if (!picture_folder.empty()) draw(c, mattes);
   if (closed_form_every == 0) return;
   const Errors chroma = key_ffmpeg(c, "chromakey", folder);
   const Errors color = key_ffmpeg(c, "colorkey", folder);
@@ -432,27 +474,30 @@ std::vector<CutOut> fish_cuts(int count) {
   return cuts;
 }
 
-std::vector<CutOut> fur_cuts(int count) {
+template <class Make>
+std::vector<CutOut> cuts_of(int count, Make make) {
   std::vector<CutOut> cuts;
-  for (int k = 0; k < count; ++k) cuts.push_back(testing::furry_ball(k, 640, 480));
+  for (int k = 0; k < count; ++k) cuts.push_back(make(k));
   return cuts;
 }
 
 // The screens whose numbers were given, else all.
 std::set<std::string> screens;
-bool wanted(const testing::Condition& condition) {
-  const auto number = &condition - testing::conditions().data();
+bool wanted(std::size_t number) {
   return screens.empty() || screens.count(std::to_string(number)) > 0;
 }
 
-void run_pool(const char* title, const std::vector<CutOut>& cuts, const testing::TempFolder& folder,
+// Every subject in turn, one a screen.
+void run_pool(const char* title, const std::vector<testing::Condition>& pool,
+              const std::vector<std::vector<CutOut>>& subjects, const testing::TempFolder& folder,
               std::size_t closed_form_every) {
   std::printf("%s: mean |e|, root mean square, gradient, flicker (percent, within %d px)\n", title,
               kBand);
   int won = 0, all = 0;
-  for (const testing::Condition& condition : testing::conditions())
-    if (wanted(condition))
-      compare(composite_case(condition, cuts, folder), folder, closed_form_every, won, all);
+  for (std::size_t k = 0; k < pool.size(); ++k)
+    if (wanted(k))
+      compare(composite_case(pool[k], subjects[k % subjects.size()], folder), folder,
+              closed_form_every, won, all);
   if (closed_form_every > 0) std::printf("  lowest of all four errors on %d of %d\n", won, all);
 }
 
@@ -477,8 +522,9 @@ void run_decision(const testing::TempFolder& folder) {
   std::vector<CutOut> mice;
   for (int k = 0; k < 60; ++k) mice.push_back(testing::grey_mouse(k, 640, 480));
   const auto fish = fish_cuts(60);
-  for (const testing::Condition& condition : testing::conditions()) {
-    if (!wanted(condition)) continue;
+  for (std::size_t k = 0; k < testing::conditions().size(); ++k) {
+    if (!wanted(k)) continue;
+    const testing::Condition& condition = testing::conditions()[k];
     for (const bool is_fish : {true, false}) {
       Case c = composite_case(condition, is_fish ? fish : mice, folder);
       c.name = (is_fish ? "fish, " : "grey mouse, ") + c.name;
@@ -619,8 +665,10 @@ int main(int argc, char** argv) {
   for (const std::string& part : parts)
     if (part.find_first_not_of("0123456789") == std::string::npos) screens.insert(part);
   for (const std::string& number : screens) parts.erase(number);
-  if (parts.empty()) parts = {"speed", "truth", "chosen", "unseen"};
+  if (parts.empty()) parts = {"speed", "truth", "chosen", "chosen2", "unseen"};
   const bool alone = parts.count("ours") > 0;
+  for (const std::string& part : parts)
+    if (part.find('/') != std::string::npos) picture_folder = part;
   const testing::TempFolder folder;
   if (parts.count("speed")) run_speed(folder);
   if (parts.count("truth")) {
@@ -631,7 +679,18 @@ int main(int argc, char** argv) {
   if (parts.count("temporal")) run_temporal();
   if (parts.count("decision")) run_decision(folder);
   if (parts.count("chosen"))
-    run_pool("chosen with: the fish", fish_cuts(60), folder, alone ? 0 : 12);
-  if (parts.count("unseen")) run_pool("never seen: fur and a veil", fur_cuts(60), folder, 12);
+    run_pool("chosen with: the fish", testing::conditions(), {fish_cuts(60)}, folder,
+             alone ? 0 : 12);
+  if (parts.count("chosen2"))
+    run_pool("chosen with: fur and a veil", testing::conditions(),
+             {cuts_of(60, [](int k) { return testing::furry_ball(k, 640, 480); })}, folder,
+             alone ? 0 : 12);
+  if (parts.count("unseen")) {
+    const auto filmed = [](auto make) {
+      return cuts_of(60, [make](int k) { return testing::shuttered(make, k, 640, 480, 0.5); });
+    };
+    run_pool("never seen: clear wings and long hair", testing::unseen_conditions(),
+             {filmed(testing::dragonfly), filmed(testing::longhair)}, folder, 12);
+  }
   return 0;
 }

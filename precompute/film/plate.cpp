@@ -513,7 +513,9 @@ void mark_unlike(const float (&subject)[3], ScreenModel& screen) {
 void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   detail::prepare_model(screen);
   detail::Silhouette s;
-  std::vector<std::uint32_t> strengths(400);  // v in fiftieths
+  constexpr float kKeySteps = 50;  // of v, and of the distance to the plate where it has no key
+  constexpr float kDistanceSteps = 200;
+  std::vector<std::uint32_t> strengths(400);
   std::uint64_t strength_count = 0;
   std::vector<std::uint32_t> contrasts(512);
   std::vector<std::uint64_t> colors[3];  // sums of four, by contrast
@@ -536,16 +538,24 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
       ++contrast_count;
       for (std::size_t p = 0; p < 3; ++p) colors[p][of] += s.grid.plane[p][i];
     }
-    if (screen.key < 0) continue;
+    if (screen.kind == KeyKind::Plate) continue;
     const Mask deep = erode(s.mask, 4);
     for (std::size_t i = 0; i < deep.in.size(); ++i) {
       if (!deep.in[i]) continue;
+      if (screen.key < 0) {
+        const float d = std::sqrt(detail::distance_squared(s.frame[0][i] - s.plate[0][i],
+                                                           s.frame[1][i] - s.plate[1][i],
+                                                           s.frame[2][i] - s.plate[2][i]));
+        ++strengths[static_cast<std::size_t>(std::min(d * kDistanceSteps, 399.0f))];
+        ++strength_count;
+        continue;
+      }
       const float full =
           detail::key_strength(screen.key, s.plate[0][i], s.plate[1][i], s.plate[2][i]);
       if (!(full > 0.02f)) continue;
       const float v =
           1 - detail::key_strength(screen.key, s.frame[0][i], s.frame[1][i], s.frame[2][i]) / full;
-      ++strengths[static_cast<std::size_t>(std::clamp(v * 50, 0.0f, 399.0f))];
+      ++strengths[static_cast<std::size_t>(std::clamp(v * kKeySteps, 0.0f, 399.0f))];
       ++strength_count;
     }
   }
@@ -553,7 +563,9 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   std::size_t bin = 0;
   while (bin < 399 && 10 * (seen += strengths[bin]) < 9 * strength_count) ++bin;
   if (strength_count > 0)
-    screen.key_normaliser = std::max(1.0f, (static_cast<float>(bin) + 0.5f) / 50);
+    screen.key_normaliser =
+        (static_cast<float>(bin) + 0.5f) / (screen.key >= 0 ? kKeySteps : kDistanceSteps);
+  if (screen.key >= 0) screen.key_normaliser = std::max(1.0f, screen.key_normaliser);
   seen = 0;
   bin = 0;
   while (bin < contrasts.size() - 1 && 2 * (seen += contrasts[bin]) < contrast_count) ++bin;

@@ -51,8 +51,10 @@ struct ScreenModel {
   std::vector<std::uint16_t> cell_luma;  ///< sum of four Y of the plate
   std::vector<std::uint16_t> luma;       ///< of each pixel, linear light x 65535
   float threshold = 9;                   ///< code values: what differs less is screen
-  int key = -1;                ///< index of the colour difference that marks the screen, -1: none
-  float key_normaliser = 1;    ///< the subject's usual key strength, >= 1 (film/unmix.h)
+  int key = -1;  ///< index of the colour difference that marks the screen, -1: none
+  /// The subject's usual key strength, >= 1 (film/unmix.h); without a key its usual distance from
+  /// the plate, linear light.
+  float key_normaliser = 1;
   float subject_contrast = 0;  ///< the subject's usual distance from the plate, code values
   /// Of cells: 1 where the plate looks unlike the subject; empty: everywhere. Elsewhere a faint
   /// difference may as well be its shadow or reflection (kind Plate).

@@ -20,6 +20,8 @@ constexpr float kSpill = 0.05f;         // share of the plate in a foreground ne
 constexpr float kRimSpill = 0.08f;      // rim, where screen light falls from behind
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one
 constexpr float kGlobalWeight = 1e-4f;  // of the whole patch
+constexpr float kUnexplained = 12;      // residual of what no mixture explains
+constexpr float kCovered = 0.6f;        // share of the screen that is gone where that is opaque
 constexpr std::size_t kRoom = 16;       // cells behind the last
 
 // sigma_n in linear light of `codes` code values at each sum of four.
@@ -96,9 +98,13 @@ void gather_evidence(const ScreenModel& screen, Patch& patch) {
   if (screen.key >= 0) return;
   for (std::size_t i = 0; i < n; ++i)
     if (!patch.region.in[i]) patch.key[i] = 0;
+  // Fur that leaves a third of a white screen in sight stands out as much as a whole animal does
+  // before black: the film says how much is all. Before a plate of any texture it cannot.
+  const bool plain = screen.kind == KeyKind::Color;
+  const float usual = plain ? std::max(screen.key_normaliser, 0.3f) : 0.3f;
+  const float gain = plain ? 1.0f : 1.25f;
   const std::vector<float> most = largest_around(patch.key, patch.width, patch.height, 4);
-  for (std::size_t i = 0; i < n; ++i)
-    patch.key[i] = 1.25f * patch.key[i] / std::clamp(most[i], 0.02f, 0.3f);
+  for (std::size_t i = 0; i < n; ++i) patch.key[i] *= gain / std::clamp(most[i], 0.02f, usual);
 }
 
 // Holes are filled unless a cell of theirs looks like screen.
@@ -140,9 +146,10 @@ void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
 
 void find_seeds(const ScreenModel& screen, Patch& patch) {
   const std::size_t n = patch.cells();
-  // Deep inside less is enough, but not of a subject much stronger than the key: there half the
-  // strength is a translucent fin.
-  const float enough = screen.key_normaliser > 1.5f ? 0.8f : 0.5f;
+  // Deep inside less is enough, but not of a subject that is much stronger than the key or, before
+  // a plain screen, has only its own strength to go by: there half of it is a translucent fin.
+  const bool own_strength = screen.key < 0 && screen.kind == KeyKind::Color;
+  const float enough = own_strength || screen.key_normaliser > 1.5f ? 0.8f : 0.5f;
   Mask sure(patch.width, patch.height);
   Mask likely(patch.width, patch.height);
   const float inverse = screen.key >= 0 ? 1 / screen.key_normaliser : 1.0f;
@@ -286,10 +293,15 @@ void solve_alpha(Patch& patch, float spill, bool final) {
   }
 }
 
-// What no mixture explains, with all its neighbours, is another part of the subject.
+// What no mixture explains, with all its neighbours, is another part of the subject: surely if most
+// of the screen is gone there. A veil of another colour leaves it in sight.
 bool add_unexplained(Patch& patch) {
   Mask odd(patch.width, patch.height);
-  lanes().above(patch.residual.data(), 12, odd.in.size(), odd.in.data());
+  lanes().above(patch.residual.data(), kUnexplained, odd.in.size(), odd.in.data());
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    for (std::size_t i = at; i < at + count; ++i)
+      if (std::max(patch.key[i], patch.bound[i]) <= kCovered) odd.in[i] = 0;
+  });
   lanes().spread_into(patch.seeds.in.data(), odd.in.size(), true, odd.in.data());
   Mask core = erode(odd, 2);
   lanes().spread_into(patch.seeds.in.data(), core.in.size(), true, core.in.data());

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/synthetic_film.h"
@@ -48,6 +49,25 @@ inline const std::vector<Condition>& conditions() {
       {"white", {225, 225, 222}, 0.1, 1.5, 0.0, 18},
       {"black", {16, 16, 18}, 0.1, 1.5, 0.0, 18},
       {"grey", {128, 126, 122}, 0.1, 1.5, 0.0, 18},
+  };
+  return all;
+}
+
+/// The screens of the films that no choice has seen.
+inline const std::vector<Condition>& unseen_conditions() {
+  static const std::vector<Condition> all = {
+      {"green cloth", {70, 140, 75}, 0.3, 2.5, 0.05, 20},
+      {"deep green", {20, 110, 45}, 0.1, 2, 0.04, 18},
+      {"sky blue", {110, 160, 215}, 0.2, 2, 0.03, 20},
+      {"navy", {28, 40, 90}, 0.2, 2.5, 0.03, 18},
+      {"turquoise", {70, 170, 165}, 0.15, 2, 0.05, 22},
+      {"violet", {120, 80, 170}, 0.2, 2, 0.03, 18},
+      {"red", {170, 45, 40}, 0.15, 2, 0.03, 18},
+      {"grainy green", {60, 130, 70}, 0.2, 7, 0.03, 18},
+      {"off-white", {205, 208, 214}, 0.15, 2, 0.0, 18},
+      {"charcoal", {34, 36, 38}, 0.15, 2, 0.0, 18},
+      {"middle grey", {98, 100, 104}, 0.15, 2, 0.0, 20},
+      {"green, compressed", {60, 150, 80}, 0.15, 2, 0.06, 32},
   };
   return all;
 }
@@ -147,6 +167,217 @@ inline CutOut grey_mouse(int frame, int width, int height) {
         out.foreground[3 * i + c] = share * pink[c] + (1 - share) * grey[c] * coat;
     }
   return out;
+}
+
+/// Parts laid over each other, from the back to the front.
+class Layers {
+ public:
+  Layers(int width, int height) : out_{width, height, {}, {}} {
+    out_.alpha.resize(static_cast<std::size_t>(width * height));
+    out_.foreground.resize(3 * out_.alpha.size());
+  }
+  /// A point of a part: its coverage there and its linear colour.
+  void over(std::size_t i, double cover, const double (&color)[3]) {
+    const auto a = static_cast<float>(cover);
+    out_.alpha[i] = a + (1 - a) * out_.alpha[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      float& f = out_.foreground[3 * i + c];
+      f = a * static_cast<float>(color[c]) + (1 - a) * f;
+    }
+  }
+  /// A curve of `steps` points, `at(t)` its place and `half(t)` half its width, 0 <= t <= 1.
+  template <class At, class Half>
+  void stroke(int steps, At at, Half half, const double (&color)[3]) {
+    const int w = out_.width;
+    std::vector<std::pair<std::size_t, double>> cover;
+    for (int k = 0; k <= steps; ++k) {
+      const double t = 1.0 * k / steps;
+      const auto [x, y] = at(t);
+      const int reach = static_cast<int>(half(t)) + 1;
+      for (int v = static_cast<int>(y) - reach; v <= static_cast<int>(y) + reach; ++v)
+        for (int u = static_cast<int>(x) - reach; u <= static_cast<int>(x) + reach; ++u) {
+          if (u < 0 || v < 0 || u >= w || v >= out_.height) continue;
+          const double in = std::clamp(half(t) + 0.5 - std::hypot(u + 0.5 - x, v + 0.5 - y), 0.0,
+                                       std::min(2 * half(t), 1.0));
+          if (in > 0) cover.emplace_back(static_cast<std::size_t>(v * w + u), in);
+        }
+    }
+    std::sort(cover.begin(), cover.end());
+    for (std::size_t k = 0; k < cover.size(); ++k)
+      if (k + 1 == cover.size() || cover[k + 1].first != cover[k].first)
+        over(cover[k].first, cover[k].second, color);
+  }
+  /// `paint(x, y, color)` says whether a part is at a place, and how much it covers there.
+  template <class Paint>
+  void area(double left, double top, double right, double bottom, Paint paint) {
+    constexpr int kFine = 3;  // samples a pixel along each axis
+    for (int y = std::max(static_cast<int>(top), 0);
+         y <= std::min(static_cast<int>(bottom), out_.height - 1); ++y)
+      for (int x = std::max(static_cast<int>(left), 0);
+           x <= std::min(static_cast<int>(right), out_.width - 1); ++x) {
+        double cover = 0;
+        double mean[3] = {};
+        for (int s = 0; s < kFine * kFine; ++s) {
+          double color[3] = {};
+          const double a =
+              paint(x + (s % kFine + 0.5) / kFine, y + (s / kFine + 0.5) / kFine, color);
+          cover += a;
+          for (int c = 0; c < 3; ++c) mean[c] += a * color[c];
+        }
+        if (cover <= 0) continue;
+        for (double& m : mean) m /= cover;
+        over(static_cast<std::size_t>(y * out_.width + x), cover / (kFine * kFine), mean);
+      }
+  }
+  CutOut finish() {
+    for (std::size_t i = 0; i < out_.alpha.size(); ++i)
+      for (std::size_t c = 0; c < 3 && out_.alpha[i] > 0; ++c)
+        out_.foreground[3 * i + c] /= out_.alpha[i];
+    return std::move(out_);
+  }
+
+ private:
+  CutOut out_;  // colours times alpha until finished
+};
+
+/// A dragonfly from the side: an opaque banded body, thin legs, four clear wings with dark veins.
+inline CutOut dragonfly(double time, int width, int height) {
+  Layers layers(width, height);
+  const double cx = width * (0.5 + 0.22 * std::sin(0.06 * time));
+  const double cy = height * (0.5 + 0.15 * std::cos(0.11 * time));
+  const double r = 0.035 * height;
+  const double vein[3] = {0.05, 0.04, 0.03};
+  const auto wing = [&](double root, double turn, double length) {
+    const double ux = std::cos(turn), uy = std::sin(turn);
+    const double x0 = cx + root, y0 = cy - 0.5 * r;
+    const double reach = 1.1 * length;
+    layers.area(x0 - reach, y0 - reach, x0 + reach, y0 + reach,
+                [&](double x, double y, double(&color)[3]) {
+                  const double along = ((x - x0) * ux + (y - y0) * uy) / length;
+                  const double across = ((y - y0) * ux - (x - x0) * uy) / length;
+                  if (along < 0 || along > 1) return 0.0;
+                  if (std::abs(across) > 0.17 * std::sqrt(along * (1.02 - along) * 3)) return 0.0;
+                  color[0] = 0.52, color[1] = 0.56, color[2] = 0.55;
+                  return 0.16 + 0.14 * along;
+                });
+    for (int k = -3; k <= 3; ++k)
+      layers.stroke(
+          static_cast<int>(2 * length),
+          [&](double t) {
+            const double across = 0.05 * k * std::sqrt(t * (1.02 - t) * 3);
+            return std::pair{x0 + length * (0.98 * t * ux - across * uy),
+                             y0 + length * (0.98 * t * uy + across * ux)};
+          },
+          [&](double t) { return 0.55 - 0.35 * t; }, vein);
+  };
+  const double beat = 0.5 * std::sin(1.1 * time);
+  wing(-0.3 * r, -2.0 - beat, 5.2 * r);
+  wing(0.7 * r, -1.2 + beat, 5.6 * r);
+  for (int k = 0; k < 6; ++k)
+    layers.stroke(
+        60,
+        [&](double t) {
+          return std::pair{cx + r * (0.35 * k - 0.9 + 0.5 * t * (k % 2 ? 1 : -1)),
+                           cy + r * (0.6 + 1.5 * t - 0.5 * t * t)};
+        },
+        [](double t) { return 0.9 - 0.5 * t; }, vein);
+  layers.area(cx - 9 * r, cy - 2 * r, cx + 4 * r, cy + 3 * r,
+              [&](double x, double y, double(&color)[3]) {
+                const double u = (x - cx) / r, v = (y - cy) / r;
+                const double sag = v - 0.02 * u * u * (u < 0 ? 1 : 0);
+                const bool tail = u < 0 && u > -8 && std::abs(sag) < 0.36 + 0.02 * u;
+                const bool chest = u * u / 2.6 + v * v < 1;
+                const bool head = std::hypot(u - 2.0, v + 0.1) < 0.75;
+                if (!tail && !chest && !head) return 0.0;
+                const bool dark = tail && std::sin(4.5 * u) > 0.2;
+                const double light = 1 - 0.3 * v;
+                color[0] = light * (dark ? 0.05 : head ? 0.16 : 0.42);
+                color[1] = light * (dark ? 0.04 : head ? 0.22 : 0.24);
+                color[2] = light * (dark ? 0.04 : head ? 0.10 : 0.07);
+                return 1.0;
+              });
+  wing(-0.3 * r, -1.75 + beat, 5.4 * r);
+  wing(0.7 * r, -0.95 - beat, 5.8 * r);
+  return layers.finish();
+}
+
+/// A long-haired animal of white, ginger and black, on its way from the right to the left.
+inline CutOut longhair(double time, int width, int height) {
+  Layers layers(width, height);
+  const double cx = width * (0.68 - 0.007 * time);
+  const double cy = height * (0.48 + 0.03 * std::sin(0.5 * time));
+  const double r = 0.11 * height;
+  const auto coat = [&](double u, double v, double(&color)[3]) {
+    const double patch = std::sin(2.1 * u + 0.4) + std::sin(1.7 * v - 0.9 * u);
+    const double white[3] = {0.72, 0.69, 0.64}, ginger[3] = {0.44, 0.21, 0.08},
+                 black[3] = {0.03, 0.028, 0.026};
+    const double(&c)[3] = patch > 0.5 ? white : patch > -0.7 ? ginger : black;
+    const double light = 1 - 0.18 * v;
+    for (int p = 0; p < 3; ++p) color[p] = c[p] * light;
+  };
+  std::uint32_t state = 4711;
+  const auto random = [&state] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 8) / (1 << 24);
+  };
+  const auto hair = [&](double u, double v, double du, double dv, double wide) {
+    double color[3];
+    coat(u, v, color);
+    const double sway = 0.12 * std::sin(0.35 * time + 3 * u) + 0.25 * (random() - 0.5);
+    layers.stroke(
+        static_cast<int>(2.5 * r * std::hypot(du, dv)) + 4,
+        [&](double t) {
+          return std::pair{cx + r * (u + du * t + sway * t * t), cy + r * (v + dv * t)};
+        },
+        [&](double t) { return wide * (1 - 0.7 * t); }, color);
+  };
+  for (int k = 0; k < 420; ++k) {  // skirt
+    const double u = -1.7 + 3.4 * random();
+    hair(u, 0.75 * std::sqrt(std::max(1 - u * u / 3.2, 0.0)), 0.2 * (random() - 0.3),
+         0.35 + 0.45 * random(), 0.2 + 0.35 * random());
+  }
+  for (int k = 0; k < 160; ++k)  // tail
+    hair(1.65, -0.2 + 0.2 * random(), 0.6 + 0.9 * random(), 0.8 * random() - 0.1,
+         0.2 + 0.4 * random());
+  for (int k = 0; k < 200; ++k) {  // back and head
+    const double turn = -3.6 + 3.2 * random();
+    hair(1.72 * std::cos(turn), 0.92 * std::sin(turn), 0.12 * std::cos(turn),
+         0.2 * std::sin(turn) * random(), 0.2 + 0.3 * random());
+  }
+  layers.area(cx - 3 * r, cy - 2 * r, cx + 2 * r, cy + 2 * r,
+              [&](double x, double y, double(&color)[3]) {
+                const double u = (x - cx) / r, v = (y - cy) / r;
+                const bool body = u * u / 3.2 + v * v / 0.9 < 1;
+                const bool head = std::hypot(u + 1.9, v + 0.5) < 0.62;
+                const bool leg = v > 0 && v < 1.75 &&
+                                 (std::abs(u + 1.1 + 0.15 * std::sin(0.5 * time) * v) < 0.17 ||
+                                  std::abs(u - 1.0 - 0.15 * std::sin(0.5 * time) * v) < 0.17);
+                if (!body && !head && !leg) return 0.0;
+                coat(u, v, color);
+                return 1.0;
+              });
+  return layers.finish();
+}
+
+/// What an open shutter sees: `make(time, width, height)` over a share of the time of a frame.
+template <class Make>
+CutOut shuttered(Make make, int frame, int width, int height, double share) {
+  constexpr int kMoments = 3;
+  CutOut sum{width, height, {}, {}};
+  for (int k = 0; k < kMoments; ++k) {
+    const CutOut one = make(frame + share * k / kMoments, width, height);
+    sum.alpha.resize(one.alpha.size());
+    sum.foreground.resize(one.foreground.size());
+    for (std::size_t i = 0; i < one.alpha.size(); ++i) {
+      sum.alpha[i] += one.alpha[i] / kMoments;
+      for (std::size_t c = 0; c < 3; ++c)
+        sum.foreground[3 * i + c] += one.alpha[i] * one.foreground[3 * i + c] / kMoments;
+    }
+  }
+  for (std::size_t i = 0; i < sum.alpha.size(); ++i)
+    for (std::size_t c = 0; c < 3 && sum.alpha[i] > 0; ++c)
+      sum.foreground[3 * i + c] /= sum.alpha[i];
+  return sum;
 }
 
 /// What the camera sees of a cut-out under a condition.

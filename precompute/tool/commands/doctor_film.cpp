@@ -179,6 +179,9 @@ Finding motion_verdict(const Patient& p) {
             "motion: it hardly leaves its place, " + seconds_text(whole * (1 - c.still)) +
                 " in all: the character will play by itself, not steer",
             "film it on its way: every direction for some seconds, every turn twice"};
+  if (seen.empty())
+    return {"motion", kWarning, "motion: too short a film to tell",
+            "film it for longer, with every direction and turn"};
   const std::string text = "motion: " + seen + ", at rest " + seconds_text(whole * c.still) + "; " +
                            fixed_text(c.speed_usual, 0) + " px/s as a rule, " +
                            fixed_text(c.speed_fast, 0) + " at its fastest";
