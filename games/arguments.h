@@ -7,10 +7,12 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "vsprite/exit_code.h"
+#include "vsprite/reload.h"
 #include "vsprite/result.h"
 #include "vsprite/session.h"
 #include "vsprite/show.h"
@@ -101,6 +103,20 @@ inline SessionConfig session_config(const char* title, double fps, const Argumen
           .frames = arguments.frames,
           .keys = arguments.keys,
           .record = arguments.record};
+}
+
+/// A rebuilt pack, to be taken over before the next frame; says on stderr what came of it.
+inline std::optional<Sprite> take_rebuilt(PackWatch& watch, const char* name, double fps) {
+  Result<std::optional<Sprite>> rebuilt = watch.poll();
+  if (rebuilt && !*rebuilt) return std::nullopt;
+  if (rebuilt && (*rebuilt)->fps() != fps)
+    rebuilt = Error{ErrorCode::BadContent, "its ticks are no longer as long as they were"};
+  if (!rebuilt) {
+    std::fprintf(stderr, "%s: the old pack plays on: %s\n", name, rebuilt.error().message.c_str());
+    return std::nullopt;
+  }
+  std::fprintf(stderr, "%s: the pack was rebuilt, and is taken over\n", name);
+  return std::move(*rebuilt);
 }
 
 /// The whole of a game's main: parses, plays, says what went wrong.

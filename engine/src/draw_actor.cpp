@@ -55,6 +55,8 @@ void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, co
   draw_one(renderer, {&sprite, &frames, &actor, &fade, look}, fraction);
 }
 
+void forget(Renderer& renderer, const Sprite& sprite) { renderer.forget(key_of(sprite, 0).sprite); }
+
 void draw_actors(Renderer& renderer, std::span<const ActorDraw> actors, float fraction,
                  const Shadow* shadow) {
   if (shadow != nullptr) {

@@ -7,15 +7,84 @@
 
 #include <sys/stat.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <limits>
+#include <new>
+#include <system_error>
+#include <thread>
 #include <utility>
 
-#include "vsprite/pack.h"
+#include "memory.h"
+#include "pack_format.h"
 
 namespace vsprite {
 
+namespace {
+
+using Rebuilt = Result<std::optional<Sprite>>;
+
+// Every byte of the file, and what it holds. Ends early, with some error, once `stops`.
+Rebuilt check_and_load(const std::string& path, const std::atomic<bool>& stops) {
+  const auto source = detail::ByteSource::open(path);
+  if (!source) return source.error();
+  auto issues = verify_pack({.bytes = source->size(),
+                             .name = path,
+                             .read = [&](std::uint64_t offset, std::span<std::uint8_t> out) {
+                               return !stops && source->read(offset, out);
+                             }});
+  if (!issues) return issues.error();
+  auto sprite = load_pack(path);  // what the tables hold is said with its own code
+  if (!sprite) return sprite.error();
+  if (!issues->empty()) {
+    const PackIssue& first = issues->front();
+    const std::string section = first.section.empty() ? "" : first.section + ": ";
+    return Error{ErrorCode::CorruptData, path + ": " + section + first.message};
+  }
+  return std::optional<Sprite>(std::move(*sprite));
+}
+
+}  // namespace
+
+// One file's check, by a thread where one can be had.
+struct PackWatch::Check {
+  explicit Check(std::string file) : path(std::move(file)) {
+#if VSPRITE_THREADS
+    try {
+      thread = std::thread([this, memory = detail::current_memory()] {
+        const detail::MemoryScope scope(memory);
+        run();
+      });
+      return;
+    } catch (const std::system_error&) {
+      // The machine has none to give.
+    }
+#endif
+    run();
+  }
+  ~Check() {
+    stops = true;
+    if (thread.joinable()) thread.join();
+  }
+  void run() {
+    try {
+      result = check_and_load(path, stops);
+    } catch (const std::bad_alloc&) {
+      result = Error{ErrorCode::OutOfMemory, path + ": out of memory while checking it"};
+    }
+    is_done = true;
+  }
+
+  std::string path;
+  Rebuilt result = std::optional<Sprite>();
+  std::atomic<bool> is_done = false, stops = false;
+  std::thread thread;
+};
+
 PackWatch::PackWatch(std::string path) : path_(std::move(path)) { known_ = seen_ = look(); }
+PackWatch::PackWatch(PackWatch&&) noexcept = default;
+PackWatch& PackWatch::operator=(PackWatch&&) noexcept = default;
+PackWatch::~PackWatch() = default;
 
 PackWatch::Stamp PackWatch::look() const noexcept {
   struct stat status {};
@@ -27,18 +96,12 @@ PackWatch::Stamp PackWatch::look() const noexcept {
 
 Result<std::optional<Sprite>> PackWatch::poll() {
   const Stamp before = std::exchange(seen_, look());
-  if (seen_ == known_ || seen_ != before || seen_ == Stamp{}) return std::optional<Sprite>();
-  known_ = seen_;
-  auto issues = verify_pack(path_);
-  if (!issues) return issues.error();
-  auto sprite = load_pack(path_);  // what the tables hold is said with its own code
-  if (!sprite) return sprite.error();
-  if (!issues->empty()) {
-    const PackIssue& first = issues->front();
-    const std::string section = first.section.empty() ? "" : first.section + ": ";
-    return Error{ErrorCode::CorruptData, path_ + ": " + section + first.message};
+  if (check_ == nullptr && seen_ != known_ && seen_ == before && seen_ != Stamp{}) {
+    known_ = seen_;
+    check_ = std::make_unique<Check>(path_);
   }
-  return std::optional<Sprite>(std::move(*sprite));
+  if (check_ == nullptr || !check_->is_done) return std::optional<Sprite>();
+  return std::move(std::exchange(check_, nullptr)->result);
 }
 
 namespace {

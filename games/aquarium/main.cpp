@@ -5,6 +5,7 @@
 #include <array>
 #include <cinttypes>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "arguments.h"
@@ -20,6 +21,7 @@ namespace aquarium {
 namespace {
 
 using vsprite::Direction;
+using vsprite::PackWatch;
 using vsprite::Result;
 using vsprite::Session;
 using vsprite::Sprite;
@@ -62,15 +64,16 @@ class QualityKeeper {
 
 class Game {
  public:
-  Game(const Sprite& sprite, Session& session, Scene scene, const Options& options,
+  Game(Sprite sprite, PackWatch watch, Session& session, Scene scene, const Options& options,
        std::uint64_t seed, int fade)
-      : sprite_(sprite),
+      : sprite_(std::move(sprite)),
+        watch_(std::move(watch)),
         session_(session),
         scene_(std::move(scene)),
-        frames_(sprite),
+        frames_(std::in_place, sprite_),
         fade_(fade),
         keeper_(session.window().headless() && !options.quality ? Quality::High : options.quality),
-        world_(make_world(sprite, seed, options.others)) {
+        world_(make_world(sprite_, seed, options.others)) {
     hud_.muted = options.mute;
     if (session_.window().headless()) return;
     best_path_ = best_score_path();
@@ -80,6 +83,7 @@ class Game {
   }
 
   void frame() {
+    take_rebuilt();
     take_keys();
     while (session_.next_tick()) tick();
     draw();
@@ -91,6 +95,17 @@ class Game {
   Quality quality() const { return scene_.quality(); }
 
  private:
+  void take_rebuilt() {
+    auto rebuilt = vsprite::games::take_rebuilt(watch_, "aquarium", sprite_.fps());
+    if (!rebuilt) return;
+    for (Fish& fish : world_.fish) fish.actor = carry_over(sprite_, *rebuilt, fish.actor);
+    scene_.forget_fades();
+    forget(session_.renderer(), sprite_);
+    frames_.reset();
+    sprite_ = std::move(*rebuilt);
+    frames_.emplace(sprite_);
+  }
+
   void take_keys() {
     const vsprite::Input& input = session_.input();
     if (input.was_pressed(vsprite::kKeyEscape)) session_.close();
@@ -166,14 +181,15 @@ class Game {
     session_.set_resolution(resolution_of(scene_.quality(), session_.window().height()));
     const bool settled =
         session_.window().headless() || size_.settled(renderer.width(), renderer.height(), now);
-    scene_.draw(renderer, frames_, moment, settled);
+    scene_.draw(renderer, *frames_, moment, settled);
     draw_hud(renderer, moment, hud_, scene_.quality());
   }
 
-  const Sprite& sprite_;
+  Sprite sprite_;
+  PackWatch watch_;
   Session& session_;
   Scene scene_;
-  vsprite::FrameCache frames_;
+  std::optional<vsprite::FrameCache> frames_;
   int fade_;
   QualityKeeper keeper_;
   World world_;
@@ -188,7 +204,8 @@ class Game {
 };
 
 Result<void> play(const vsprite::games::Arguments& arguments, const Options& options) {
-  const Result<Sprite> sprite = vsprite::load_pack(arguments.pack);
+  PackWatch watch(arguments.pack);
+  Result<Sprite> sprite = vsprite::load_pack(arguments.pack);
   if (!sprite) return sprite.error();
   vsprite::SessionConfig config =
       vsprite::games::session_config("aquarium", sprite->fps(), arguments);
@@ -200,7 +217,8 @@ Result<void> play(const vsprite::games::Arguments& arguments, const Options& opt
   if (!session) return session.error();
   Result<Scene> scene = Scene::make(session->renderer());
   if (!scene) return scene.error();
-  Game game(*sprite, *session, std::move(*scene), options, arguments.seed, arguments.fade);
+  Game game(std::move(*sprite), std::move(watch), *session, std::move(*scene), options,
+            arguments.seed, arguments.fade);
   while (session->next_frame()) game.frame();
   if (arguments.headless || arguments.frames > 0) {
     constexpr std::array<const char*, 3> kPhases{"ready", "playing", "over"};

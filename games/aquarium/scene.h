@@ -41,6 +41,8 @@ class Scene {
   /// Call after every tick: turns the world's events into sparks and rings, jumps into fades of
   /// `fade` ticks (show.h).
   void notice(const vsprite::Sprite& sprite, const World& world, float seconds, int fade);
+  /// Call when the pack was rebuilt: fades name samples of the old one.
+  void forget_fades() { fades_.clear(); }
   /// Draws the tank into the frame that has begun. The backdrop is drawn anew once a changed size
   /// has held for a moment (`settled`), until then the old one is stretched.
   void draw(vsprite::Renderer& renderer, vsprite::FrameCache& frames, const Moment& moment,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // hello - the smallest game: a filmed character that goes where the arrow keys say.
+#include <optional>
+
 #include "arguments.h"
 #include "vsprite/session.h"
 #include "vsprite/vsprite.h"
@@ -23,16 +25,25 @@ void wrap(Actor& actor, const Renderer& screen, float margin) {
 }
 
 Result<void> run_hello(const games::Arguments& arguments) {
-  const Result<Sprite> sprite = load_pack(arguments.pack);
+  PackWatch watch(arguments.pack);
+  Result<Sprite> sprite = load_pack(arguments.pack);
   if (!sprite) return sprite.error();
   Result<Session> session = Session::open(games::session_config("hello", sprite->fps(), arguments));
   if (!session) return session.error();
 
   Renderer& screen = session->renderer();
-  FrameCache frames(*sprite);
+  std::optional<FrameCache> frames(*sprite);
   Actor actor = make_actor(*sprite, {640, 360}, arguments.seed);
   ActorFade fade;
   while (session->next_frame()) {
+    if (auto rebuilt = games::take_rebuilt(watch, "hello", sprite->fps())) {
+      actor = carry_over(*sprite, *rebuilt, actor);
+      fade = {};
+      forget(screen, *sprite);
+      frames.reset();
+      *sprite = std::move(*rebuilt);
+      frames.emplace(*sprite);
+    }
     while (session->next_tick()) {
       set_direction(*sprite, actor, session->direction());
       step(*sprite, actor);
@@ -40,7 +51,7 @@ Result<void> run_hello(const games::Arguments& arguments) {
       wrap(actor, screen, sprite->data().body_length / 2);
     }
     screen.clear(srgb(0x9cc4d8));
-    draw_actor(screen, *sprite, frames, actor, fade, session->fraction());
+    draw_actor(screen, *sprite, *frames, actor, fade, session->fraction());
     session->show();
     if (session->input().was_pressed(kKeyEscape)) session->close();
   }

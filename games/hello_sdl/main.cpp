@@ -5,6 +5,8 @@
 // textures.
 #include <SDL.h>
 
+#include <optional>
+
 #include "arguments.h"
 #include "vsprite/record.h"
 #include "vsprite/sdl.h"
@@ -21,7 +23,8 @@ Direction held_keys() {
 }
 
 Result<void> run(const games::Arguments& arguments) {
-  const Result<Sprite> sprite = load_pack(arguments.pack);
+  PackWatch watch(arguments.pack);
+  Result<Sprite> sprite = load_pack(arguments.pack);
   if (!sprite) return sprite.error();
   const Result<KeyScript> script = load_key_script(arguments.keys, sprite->fps());
   if (!script) return script.error();
@@ -34,7 +37,7 @@ Result<void> run(const games::Arguments& arguments) {
   Result<Recorder> film = Recorder::open(arguments.record, 1280, 720, sprite->fps());
   if (!film) return film.error();
 
-  FrameCache frames(*sprite);
+  std::optional<FrameCache> frames(*sprite);
   SdlPictures pictures(renderer);
   Actor actor = make_actor(*sprite, {640, 360}, arguments.seed);
   ActorFade fade;
@@ -44,12 +47,20 @@ Result<void> run(const games::Arguments& arguments) {
       if (event.type == SDL_QUIT) open = false;
       if (event.type == SDL_RENDER_DEVICE_RESET) pictures.clear();
     }
+    if (auto rebuilt = games::take_rebuilt(watch, "hello_sdl", sprite->fps())) {
+      actor = carry_over(*sprite, *rebuilt, actor);
+      fade = {};
+      pictures.clear();
+      frames.reset();
+      *sprite = std::move(*rebuilt);
+      frames.emplace(*sprite);
+    }
     set_direction(*sprite, actor, arguments.keys.empty() ? held_keys() : script->at(actor.tick));
     step(*sprite, actor);
     follow(*sprite, actor, fade, arguments.fade);
     SDL_SetRenderDrawColor(renderer, 0x9c, 0xc4, 0xd8, 0xff);
     SDL_RenderClear(renderer);
-    pictures.draw(*sprite, frames, actor, fade);
+    pictures.draw(*sprite, *frames, actor, fade);
     if (film->is_open()) {
       Image shot = make_image(1280, 720, 0, 0, 0);
       SDL_RenderReadPixels(renderer, nullptr, SDL_PIXELFORMAT_RGBA32, shot.rgba.data(), 4 * 1280);

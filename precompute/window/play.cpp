@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "vsprite/action.h"
 #include "vsprite/record.h"
+#include "vsprite/reload.h"
 #include "vsprite/session.h"
 #include "window/play_view.h"
 
@@ -78,53 +80,87 @@ class Play {
  public:
   Play(const Sprite& sprite, Session& session, const PlayOptions& options, int mode,
        KeyScript script)
-      : sprite_(sprite),
+      : sprite_(&sprite),
         session_(session),
-        frames_(sprite),
-        script_(std::move(script)),
-        fade_(options.fade) {
+        options_(options),
+        frames_(std::in_place, sprite),
+        script_(std::move(script)) {
     state_.actor = make_actor(sprite, {}, options.seed, mode);
     state_.zoom = fitting_zoom(sprite, options.height);
     state_.overlay = options.overlay;
-    after_tick_ = options.after_tick;
     state_.hint = session.is_scripted() ? 0.0f : 1.0f;
     state_.costs.fill(-1);
-    const SpriteData& data = sprite.data();
-    const ControlMode& control = data.modes[static_cast<std::size_t>(mode)];
-    state_.title = !options.title.empty() ? options.title : data.name;
-    state_.subtitle = "mode " + control.name + " \u00b7 " + std::to_string(data.samples.size()) +
-                      " samples \u00b7 " + std::to_string(std::lround(sprite.fps())) + " frames/s";
-    state_.warning = warning_line(control);
-    still_ = (control.served & 0xFFu) == 0;
+    describe();
     if (still_) state_.hint = 0;
+    if (!options.watched.empty()) watch_.emplace(options.watched);
   }
 
   void frame() {
+    if (watch_) take_rebuilt();
     read_keys();
     state_.has_target = session_.input().pointer_held && !session_.is_scripted();
     while (session_.next_tick()) tick();
     follow();
   }
   PlayState& state() { return state_; }
-  FrameCache& frames() { return frames_; }
+  const Sprite& sprite() const { return *sprite_; }
+  FrameCache& frames() { return *frames_; }
 
  private:
+  void describe();
+  void take_rebuilt();
   void read_keys();
   void command();
   void tick();
   void rebase();
   void follow();
 
-  const Sprite& sprite_;
+  const Sprite* sprite_;
+  std::optional<Sprite> rebuilt_;  // what sprite_ points to, once the pack was rebuilt
   Session& session_;
-  FrameCache frames_;
+  const PlayOptions& options_;
+  std::optional<FrameCache> frames_;
+  std::optional<PackWatch> watch_;
   KeyScript script_;  // its actions; the session steers by it
   PlayState state_;
-  int fade_;
-  std::function<void(const Actor&)> after_tick_;
   bool still_ = false;
   double last_seconds_ = 0;
 };
+
+// What the window says about the pack.
+void Play::describe() {
+  const SpriteData& data = sprite().data();
+  const ControlMode& mode = data.modes[state_.actor.mode];
+  state_.title = !options_.title.empty() ? options_.title : data.name;
+  state_.subtitle = "mode " + mode.name + " \u00b7 " + std::to_string(data.samples.size()) +
+                    " samples \u00b7 " + std::to_string(std::lround(sprite().fps())) + " frames/s";
+  state_.warning = warning_line(mode);
+  still_ = (mode.served & 0xFFu) == 0;
+}
+
+void Play::take_rebuilt() {
+  Result<std::optional<Sprite>> rebuilt = watch_->poll();
+  if (rebuilt && !*rebuilt) return;
+  if (rebuilt && (*rebuilt)->fps() != sprite().fps())
+    rebuilt =
+        Error{ErrorCode::BadContent,
+              options_.watched + ": its ticks are no longer as long as they were: start again"};
+  if (!rebuilt) {
+    state_.warning = "the old pack plays on: " + rebuilt.error().message;
+    if (options_.tell) options_.tell(state_.warning);
+    return;
+  }
+  Sprite& fresh = **rebuilt;
+  state_.actor = carry_over(sprite(), fresh, state_.actor);
+  state_.fade = {};
+  forget(session_.renderer(), sprite());
+  frames_.reset();
+  rebuilt_ = std::move(fresh);
+  sprite_ = &*rebuilt_;
+  frames_.emplace(*sprite_);
+  describe();
+  if (options_.tell) options_.tell(options_.watched + " was rebuilt, and is taken over");
+}
 
 void Play::read_keys() {
   const Input& input = session_.input();
@@ -137,10 +173,10 @@ void Play::read_keys() {
     if (key == '+' || key == '=') state_.zoom = std::min(state_.zoom * 1.25f, 8.0f);
     if (key == '-') state_.zoom = std::max(state_.zoom / 1.25f, 0.1f);
     const int action = key - '1';  // the actions of a cast, in the order of its tags
-    if (action >= 0 && action < std::min(9, static_cast<int>(sprite_.actions().size())))
-      play(sprite_, state_.actor, action, kActionTicks);
-    if (key == 'r') release(sprite_, state_.actor, kActionTicks);
-    if (key == 'c') cancel(sprite_, state_.actor);
+    if (action >= 0 && action < std::min(9, static_cast<int>(sprite().actions().size())))
+      play(sprite(), state_.actor, action, kActionTicks);
+    if (key == 'r') release(sprite(), state_.actor, kActionTicks);
+    if (key == 'c') cancel(sprite(), state_.actor);
   }
 }
 
@@ -151,38 +187,38 @@ void Play::command() {
     state_.target = {
         state_.camera.x + (at.x - 0.5f * static_cast<float>(r.width())) / state_.zoom,
         state_.camera.y + (at.y - 0.5f * static_cast<float>(r.height())) / state_.zoom};
-    set_target(sprite_, state_.actor, state_.target, 0.4f * sprite_.data().body_length);
+    set_target(sprite(), state_.actor, state_.target, 0.4f * sprite().data().body_length);
   } else {
-    set_direction(sprite_, state_.actor, session_.direction());
+    set_direction(sprite(), state_.actor, session_.direction());
   }
   state_.command = state_.actor.direction;
-  const ControlMode& mode = sprite_.data().modes[state_.actor.mode];
+  const ControlMode& mode = sprite().data().modes[state_.actor.mode];
   state_.notice = still_ ? std::string() : notice_of(mode, state_.command);
 }
 
 void Play::tick() {
   command();
-  play_script(sprite_, script_, session_.tick(), state_.actor);
+  play_script(sprite(), script_, session_.tick(), state_.actor);
   const std::uint32_t before = state_.actor.sample;
-  step(sprite_, state_.actor);
-  vsprite::follow(sprite_, state_.actor, state_.fade, fade_);
-  if (after_tick_) after_tick_(state_.actor);
+  step(sprite(), state_.actor);
+  vsprite::follow(sprite(), state_.actor, state_.fade, options_.fade);
+  if (options_.after_tick) options_.after_tick(state_.actor);
   float& cost = state_.costs[state_.cost_head];
   state_.cost_head = (state_.cost_head + 1) % window::kHistory;
   cost = -1;
   if (state_.actor.jumped != 0) {
-    cost = state_.last_cost = shown_cost(sprite_, before, state_.actor);
+    cost = state_.last_cost = shown_cost(sprite(), before, state_.actor);
     ++state_.jumps;
   }
   if (state_.hint < 1 || state_.command != Direction::None) {
-    state_.hint = std::max(0.0f, state_.hint - 2 / static_cast<float>(sprite_.fps()));
+    state_.hint = std::max(0.0f, state_.hint - 2 / static_cast<float>(sprite().fps()));
   }
   rebase();
 }
 
 /// The world is a torus of many grid cells, so that a float holds every place exactly enough.
 void Play::rebase() {
-  const std::int64_t period = std::int64_t{4} * window::grid_spacing(sprite_) * kFixedOne;
+  const std::int64_t period = std::int64_t{4} * window::grid_spacing(sprite()) * kFixedOne;
   const auto shift = [&](std::int64_t& position, float& camera) {
     if (std::abs(position) < 16 * period) return;
     const std::int64_t by = position / period * period;
@@ -199,7 +235,7 @@ void Play::follow() {
   const double elapsed = std::clamp(now - last_seconds_, 0.0, 0.2);
   last_seconds_ = now;
   const auto part = static_cast<float>(1 - std::exp(-elapsed / 0.35));
-  const Vec2 at = draw_position(sprite_, state_.actor, session_.fraction());
+  const Vec2 at = draw_position(sprite(), state_.actor, session_.fraction());
   state_.camera.x += part * (at.x - state_.camera.x);
   state_.camera.y += part * (at.y - state_.camera.y);
 }
@@ -248,7 +284,7 @@ Result<void> play_window(const Sprite& sprite, const PlayOptions& options) {
   Play run(sprite, *session, options, *mode, std::move(*script));
   while (session->next_frame()) {
     run.frame();
-    view->draw(*session, sprite, run.frames(), run.state());
+    view->draw(*session, run.sprite(), run.frames(), run.state());
     session->show();
   }
   if (!options.screenshot.empty()) {

@@ -30,6 +30,8 @@ struct PlayOptions {
   int width = 1280;          ///< px
   int height = 720;
   std::function<void(const Actor&)> after_tick{};  ///< told of every state; empty: nobody is
+  std::string watched{};  ///< the pack's file, taken over when it is rebuilt; empty: it never is
+  std::function<void(const std::string&)> tell{};  ///< told what came of a rebuilt pack
 };
 
 /// Which commands the mode cannot follow and what it does instead, a line each, for stdout; empty

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "support/temp_folder.h"
 #include "support/tiny_sprite.h"
@@ -30,6 +32,15 @@ class Reload : public ::testing::Test {
     file.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
   }
+  // What comes of a changed file, once it was looked at.
+  static Result<std::optional<Sprite>> outcome(PackWatch& watch) {
+    for (int wait = 0; wait < 10000; ++wait) {
+      auto rebuilt = watch.poll();
+      if (!rebuilt || *rebuilt) return rebuilt;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return std::optional<Sprite>();
+  }
   testing::TempFolder folder_;
   std::string path_ = folder_.file("hero.vsp");
 };
@@ -40,7 +51,7 @@ TEST_F(Reload, ARebuiltPackIsTakenOverOnceItStandsStill) {
   EXPECT_FALSE(*watch.poll()) << "what was there before is known";
   save("new");
   EXPECT_FALSE(*watch.poll()) << "it may still be changing";
-  const auto rebuilt = watch.poll();
+  const auto rebuilt = outcome(watch);
   ASSERT_TRUE(rebuilt && *rebuilt);
   EXPECT_EQ((*rebuilt)->data().name, "new");
   EXPECT_FALSE(*watch.poll()) << "taken over once";
@@ -55,8 +66,7 @@ TEST_F(Reload, ABadPackIsRefusedWithTheReasonAndTheOldOnePlaysOn) {
   std::filesystem::remove(path_);
   EXPECT_TRUE(watch.poll()) << "no file is no news";
   overwrite(bytes);
-  static_cast<void>(watch.poll());
-  const auto refused = watch.poll();
+  const auto refused = outcome(watch);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::CorruptData);
   EXPECT_NE(refused.error().message.find("hero.vsp: FRAM: "), std::string::npos);
@@ -74,8 +84,7 @@ TEST_F(Reload, APackThatIsCutShortWhileItPlaysCostsPicturesAndNoSignal) {
   EXPECT_FALSE(old.decode_frame(1, picture));
   FrameCache frames(old);
   EXPECT_EQ(frames.frame(1).width, 0);
-  static_cast<void>(watch.poll());
-  EXPECT_EQ(watch.poll().error().code, ErrorCode::BadFormat);
+  EXPECT_EQ(outcome(watch).error().code, ErrorCode::BadFormat);
 }
 
 TEST_F(Reload, AnActorStaysWhereItIsAndShowsTheSameFrame) {
@@ -99,6 +108,36 @@ TEST_F(Reload, AnActorStaysWhereItIsAndShowsTheSameFrame) {
   for (int tick = 0; tick < 50; ++tick) step(to, now);  // and goes on
 }
 
+TEST_F(Reload, WhatIsBeingCheckedIsTakenOverBeforeWhatCameAfterIt) {
+  save("old");
+  PackWatch watch(path_);
+  save("first");
+  static_cast<void>(watch.poll());
+  static_cast<void>(watch.poll());  // is checked from here on
+  save("second");
+  std::vector<std::string> names;
+  for (int wait = 0; wait < 10000 && (names.empty() || names.back() != "second"); ++wait) {
+    auto rebuilt = watch.poll();
+    ASSERT_TRUE(rebuilt) << rebuilt.error().message;
+    if (*rebuilt) names.push_back((*rebuilt)->data().name);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_FALSE(names.empty());
+  EXPECT_EQ(names.back(), "second");
+}
+
+TEST_F(Reload, AWatchMayBeDroppedInTheMiddleOfACheck) {
+  save("old");
+  for (int round = 0; round < 20; ++round) {
+    PackWatch watch(path_);
+    save("new");
+    static_cast<void>(watch.poll());
+    static_cast<void>(watch.poll());
+    PackWatch moved = std::move(watch);
+    if (round % 2 == 0) static_cast<void>(moved.poll());
+  }
+}
+
 std::size_t open_files() {
   const std::filesystem::directory_iterator all("/proc/self/fd"), end;
   return static_cast<std::size_t>(std::distance(all, end));
@@ -117,8 +156,7 @@ TEST_F(Reload, AThousandReloadsLeaveNoFileOpen) {
         .write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
     std::filesystem::rename(fresh, path_);
-    auto rebuilt = watch.poll();
-    if (rebuilt && !*rebuilt) rebuilt = watch.poll();
+    auto rebuilt = outcome(watch);
     ASSERT_TRUE(rebuilt && *rebuilt) << round;
     actor = carry_over(sprite, **rebuilt, actor);
     sprite = std::move(**rebuilt);

@@ -4,7 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "support/gl_stage.h"
 #include "support/temp_folder.h"
@@ -73,6 +78,37 @@ TEST(Play, WritesAFilmAndAScreenshot) {
   PLAY_OR_SKIP(sprite, options);
   EXPECT_GT(testing::read_bytes(folder.file("a.mp4")).size(), 1000u);
   EXPECT_TRUE(read_png(folder.file("a.png")));
+}
+
+// The pack is rebuilt, then spoiled, under a running window.
+TEST(Play, TakesARebuiltPackOverAndKeepsTheOldOneInPlaceOfABadOne) {
+  const TempFolder folder;
+  const Sprite sprite = tiny_pack(folder);
+  PlayOptions options = quick("");
+  options.frames = 1000;
+  options.width = 64;
+  options.height = 48;
+  options.watched = folder.file("tiny.vsp");
+  std::vector<std::string> told;
+  options.tell = [&](const std::string& what) { told.push_back(what); };
+  std::vector<Actor> states;
+  bool is_spoiled = false;
+  options.after_tick = [&](const Actor& actor) {
+    states.push_back(actor);
+    if (actor.tick == 5) static_cast<void>(tiny_pack(folder));
+    if (told.size() == 1 && !is_spoiled) {
+      std::ofstream(options.watched, std::ios::trunc) << "no pack";
+      is_spoiled = true;
+    }
+    if (told.size() < 2) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  };
+  PLAY_OR_SKIP(sprite, options);
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_NE(told[0].find("tiny.vsp was rebuilt"), std::string::npos) << told[0];
+  EXPECT_NE(told[1].find("the old pack plays on: "), std::string::npos) << told[1];
+  EXPECT_NE(told[1].find("tiny.vsp: "), std::string::npos) << told[1];
+  ASSERT_EQ(states.size(), 1000u) << "no tick was lost";
+  for (std::size_t i = 1; i < states.size(); ++i) ASSERT_EQ(states[i].tick, states[i - 1].tick + 1);
 }
 
 TEST(Play, RefusesAModeThatThePackDoesNotHave) {

@@ -166,6 +166,9 @@ void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, co
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 const ActorFade& fade, float fraction = 0, const SpriteDraw& look = {});
 
+/// Drops the cached pictures of a sprite, before another takes its place (reload.h).
+void forget(Renderer& renderer, const Sprite& sprite);
+
 /// One of many actors. The pointers are borrowed for the call; `fade` may be null.
 struct ActorDraw {
   const Sprite* sprite = nullptr;

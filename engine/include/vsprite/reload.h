@@ -9,20 +9,25 @@
 //     if (!rebuilt) say(rebuilt.error().message);           // the old one plays on
 //     else if (*rebuilt) {
 //       actor = carry_over(sprite, **rebuilt, actor);
-//       frames.reset();                                     // a FrameCache borrows the old Sprite
+//       fade = {};                                          // it names samples of the old one
+//       forget(renderer, sprite);                           // draw.h: the old one's textures
+//       frames.reset();                                     // a FrameCache borrows its Sprite
 //       sprite = std::move(**rebuilt);
 //       frames.emplace(sprite);
 //     }
 //
+// A changed file is read and checked by a thread of its own, so that no frame is late, however
+// large it is (built with VSPRITE_THREADS=OFF: by poll itself).
+//
 // Nothing of this can end the game: files are read, never mapped, so that no signal (SIGBUS) comes
 // of one that is cut short, and a pack that was replaced by rename, as save_pack does, stays
 // readable to who has it open. One that is rewritten in place costs the old Sprite pictures (their
-// sums no longer fit) until it is taken over. Textures that a Renderer made of the old pictures are
-// to be forgotten (Renderer::forget) before a Sprite is dropped.
+// sums no longer fit) until it is taken over.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -32,26 +37,32 @@
 
 namespace vsprite {
 
-/// Sees that a file has changed. For one thread at a time.
+/// Sees that a file has changed. Movable; for one thread at a time. Dropped, it lets go of a file
+/// that it is checking.
 class PackWatch {
  public:
   /// What lies at `path` now counts as known. May throw std::bad_alloc.
   explicit PackWatch(std::string path);
+  PackWatch(PackWatch&&) noexcept;
+  PackWatch& operator=(PackWatch&&) noexcept;
+  ~PackWatch();
 
   /// The new pack, once a changed file was the same in two calls, so that one that is being written
-  /// is left alone. Empty: nothing new; also while there is no file. Cost: a look at the file's
-  /// date and size; when it has changed every byte is checked (verify_pack) and it is loaded.
+  /// is left alone, and every byte of it was checked (verify_pack). Empty: nothing new yet; also
+  /// while there is no file. Cost: a look at the file's date and size.
   /// Errors, once for each state of the file: as load_pack, and CorruptData with the first finding
   /// of verify_pack.
   Result<std::optional<Sprite>> poll();
 
  private:
+  struct Check;
   /// Device, number, bytes, seconds and nanoseconds of the last change; zeros: no file.
   using Stamp = std::array<std::int64_t, 5>;
   Stamp look() const noexcept;
 
   std::string path_;
   Stamp known_{}, seen_{};
+  std::unique_ptr<Check> check_;  ///< of the file in the state `known_`
 };
 
 /// The actor for another build of its pack: position, time, owner and command stay. It shows the

@@ -68,6 +68,8 @@ Result<int> run_play(const Settings& settings, Console& console) {
   options.seed = settings.seed;
   options.fade = parse_fade(settings.fade).value_or(kFadeAuto);
   options.title = fs::path(*pack).stem().string();
+  options.watched = *pack;
+  options.tell = [&console](const std::string& what) { console.listener().note(what); };
   // The window closes itself on an interrupt; nothing is left to keep.
   std::signal(SIGINT, SIG_DFL);
   if (auto played = play_window(*sprite, options); !played) return played.error();
