@@ -4,10 +4,14 @@
 // One hand-made hostile pack for every way in which a pack can lie with all its sums in order.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
+#include <sstream>
 
+#include "support/naive_actions.h"
 #include "support/pack_bytes.h"
 #include "vsprite/actor.h"
 
@@ -42,8 +46,9 @@ ByteVector damage_header(const EditBytes& edit) {
 }
 
 // Damage to a section; all sums are made right afterwards.
-ByteVector damage_section(const EditParts& edit) {
-  PackParts parts = PackParts::split(testing::tiny_pack_bytes());
+ByteVector damage_section(const EditParts& edit,
+                          const ByteVector& pack = testing::tiny_pack_bytes()) {
+  PackParts parts = PackParts::split(pack);
   edit(parts);
   return parts.join();
 }
@@ -321,6 +326,63 @@ std::vector<Hostile> picture_packs() {
   };
 }
 
+// The tiny sprite with every section that a pack may lack.
+const ByteVector& acting_pack() {
+  static const ByteVector bytes = [] {
+    const testing::TempFolder folder;
+    SpriteData data = testing::acting_sprite_data();
+    data.event_names = {"step", "blink"};
+    data.events = {{4, 0}, {9, 0}, {9, 1}};
+    for (std::uint16_t tag = 0; tag < data.tags.size(); ++tag)
+      data.bodies.push_back({tag, -5, -4, 6, 7});
+    const std::string path = folder.file("tiny.vsp");
+    const auto saved = save_pack(path, data, [&](std::uint32_t sample) {
+      return Result<Image>(testing::tiny_picture(data, sample));
+    });
+    return saved ? testing::read_bytes(path) : ByteVector();
+  }();
+  return bytes;
+}
+
+// What a pack may lack: actions, events, boxes.
+std::vector<Hostile> acting_packs() {
+  constexpr std::size_t n = testing::kTinySamples;
+  constexpr std::size_t value = 24, next = value + 4 * n, cut = value + 12 * n,
+                        stay = value + 16 * n, in_time = value + 20 * n;
+  const auto damaged = [](const EditParts& edit) { return damage_section(edit, acting_pack()); };
+  return {
+      {"action-size", "bytes are due", damaged([](auto& p) { p["ACTN"].bytes.pop_back(); })},
+      {"action-size", "16 bytes are due", damaged([](auto& p) { p["ACTN"].bytes.resize(15); })},
+      {"action-count", "0 tables", damaged(set("ACTN", 0, 0u))},
+      {"action-count", "4294967280 deadlines", damaged(set("ACTN", 4, kHuge))},
+      {"action-tau", "price of a tick", damaged(set("ACTN", 8, 0.0f))},
+      {"reserved", "reserved bytes", damaged(set("ACTN", 12, 1u))},
+      {"action-tag", "there are 6 tags", damaged(set<std::uint16_t>("ACTN", 16, 77))},
+      {"action-tag", "do not ascend", damaged(set<std::uint16_t>("ACTN", in_time + 32 * n, 1))},
+      {"action-kept", "not kept but leads", damaged(set("ACTN", next, 1u))},
+      {"action-next", "no transition", damaged(set("ACTN", next + 20, 50u))},
+      {"action-next", "no transition", damaged(set("ACTN", next + 20, kHuge))},
+      {"action-value", "does not fall", damaged(set("ACTN", value + 20, 0.0f))},
+      {"action-cut", "no first sample", damaged(set("ACTN", cut + 20, 6u))},
+      {"action-stay", "not of the tag", damaged(set("ACTN", stay + 20, 6u))},
+      {"action-deadline", "does not come in time", damaged(set("ACTN", in_time + 20, 6u))},
+      {"event-size", "16 bytes are due", damaged([](auto& p) { p["EVNT"].bytes.resize(15); })},
+      {"event-size", "4294967280 events", damaged(set("EVNT", 8, std::uint64_t{kHuge}))},
+      {"event-name", "has name 2 of 2", damaged(set("EVNT", 20, 2u))},
+      {"event-name", "each once", damaged([](auto& p) { p["EVNT"].bytes.back() = 7; })},
+      {"event-sample", "at sample 103", damaged(set("EVNT", 16, 103u))},
+      {"event-order", "ascending order", damaged(set("EVNT", 16, 102u))},
+      {"body-size", "do not make", damaged([](auto& p) { p["BODY"].bytes.push_back(0); })},
+      {"body-tag", "tag 77 of 6", damaged(set<std::uint16_t>("BODY", 8, 77))},
+      {"body-tag", "has samples but no box", damaged([](auto& p) {
+         put_at(p["BODY"].bytes, 0, 5u);
+         p["BODY"].bytes.resize(8 + 5 * 20);
+       })},
+      {"body-box", "is not a box", damaged(set("BODY", 12, 9.0f))},
+      {"section-twice", "more than once", damaged([](auto& p) { p.parts.push_back(p["BODY"]); })},
+  };
+}
+
 void expect_refused(const Hostile& hostile) {
   SCOPED_TRACE(std::string(hostile.code) + ": " + hostile.message);
   const auto issues = testing::verify_bytes(hostile.bytes);
@@ -341,23 +403,46 @@ void expect_refused(const Hostile& hostile) {
   for (std::uint32_t i = 0; i < testing::kTinySamples; ++i) (void)sprite->decode_frame(i, image);
 }
 
-TEST(HostilePack, HeaderAndSectionTable) {
-  for (const Hostile& hostile : header_packs()) expect_refused(hostile);
+using HostileList = std::vector<Hostile> (*)();
+constexpr HostileList kLists[] = {header_packs, meta_packs,    sample_packs, transition_packs,
+                                  mode_packs,   picture_packs, acting_packs};
+
+class HostilePack : public ::testing::TestWithParam<HostileList> {};
+TEST_P(HostilePack, IsRefusedWithItsOwnCode) {
+  for (const Hostile& hostile : GetParam()()) expect_refused(hostile);
 }
-TEST(HostilePack, Meta) {
-  for (const Hostile& hostile : meta_packs()) expect_refused(hostile);
+INSTANTIATE_TEST_SUITE_P(All, HostilePack, ::testing::ValuesIn(kLists));
+
+// A pack of 9 GiB, of which only the header is there.
+TEST(HostilePacks, MoreThanIsReadIsRefusedBeforeItIsRead) {
+  ByteVector header(64, 0);
+  std::copy(detail::kMagic.begin(), detail::kMagic.end(), header.begin());
+  put_at(header, 8, kPackMajor);
+  put_at(header, 16, std::uint64_t{9} << 30);
+  const auto issues = verify_pack(
+      {std::uint64_t{9} << 30, "large.vsp", [&](std::uint64_t offset, std::span<std::uint8_t> out) {
+         if (offset + out.size() > header.size()) return false;
+         std::copy_n(header.begin() + static_cast<std::ptrdiff_t>(offset), out.size(), out.begin());
+         return true;
+       }});
+  ASSERT_TRUE(issues && issues->size() == 1);
+  EXPECT_EQ(issues->front().code, "file-limit");
 }
-TEST(HostilePack, Samples) {
-  for (const Hostile& hostile : sample_packs()) expect_refused(hostile);
-}
-TEST(HostilePack, Transitions) {
-  for (const Hostile& hostile : transition_packs()) expect_refused(hostile);
-}
-TEST(HostilePack, Modes) {
-  for (const Hostile& hostile : mode_packs()) expect_refused(hostile);
-}
-TEST(HostilePack, Pictures) {
-  for (const Hostile& hostile : picture_packs()) expect_refused(hostile);
+
+// PACK.md promises these codes: each has a pack of its own, and no pack has a code beyond them.
+TEST(HostilePacks, EveryCodeOfTheVerifierHasOne) {
+  std::ifstream file(VSPRITE_SOURCE_DIR "/engine/PACK.md");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto begin = text.find("`too-short "), end = text.find('`', begin + 1);
+  ASSERT_NE(begin, std::string::npos);
+  std::istringstream words(text.substr(begin + 1, end - begin - 1));
+  const std::set<std::string> promised{std::istream_iterator<std::string>(words), {}};
+  std::set<std::string> found{"file-limit"};  // above
+  std::size_t count = 1;
+  for (const HostileList list : kLists)
+    for (const Hostile& hostile : list()) found.insert(hostile.code), ++count;
+  EXPECT_EQ(found, promised);
+  EXPECT_GE(count, 60u);
 }
 
 }  // namespace
