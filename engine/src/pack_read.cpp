@@ -5,6 +5,7 @@
 // section. Every count is compared with the bytes that are there before memory is taken for it;
 // what the numbers mean is checked afterwards, in one place (check_sprite_data).
 #include <algorithm>
+#include <memory>
 
 #include "pack_format.h"
 #include "sections.h"
@@ -162,7 +163,10 @@ Check check_names(const PackContent& content) {
 struct Section {
   std::string_view name;
   std::uint64_t offset = 0;
-  std::vector<std::uint8_t> bytes;
+  std::span<const std::uint8_t> bytes;
+  // One place for all sections, one after the other; what is read over is not zeroed before.
+  std::unique_ptr<std::uint8_t[]> memory;
+  std::size_t room = 0;
 
   Finding wrong_size(std::string_view code, const std::string& what, std::uint64_t due) const {
     return finding(
@@ -174,13 +178,31 @@ struct Section {
 Check read_section(const ByteSource& source, const SectionEntry& entry, Section& section) {
   section.name = entry.name;
   section.offset = entry.offset;
-  section.bytes.resize(entry.bytes);
-  if (auto read = source.read(entry.offset, section.bytes); !read) {
+  if (entry.bytes > section.room) {
+    section.memory.reset();
+    section.memory = std::make_unique_for_overwrite<std::uint8_t[]>(entry.bytes);
+    section.room = entry.bytes;
+  }
+  const std::span bytes(section.memory.get(), entry.bytes);
+  if (auto read = source.read(entry.offset, bytes); !read) {
     return unreadable(read.error(), entry.name, entry.offset);
   }
+  section.bytes = bytes;
   if (hash_bytes(section.bytes) == entry.sum) return {};
   return finding("section-sum", entry.name, entry.offset,
                  "the section's sum does not fit its bytes");
+}
+
+// As many numbers into a fresh vector, in pieces: resizing it would write every page twice.
+template <class T>
+void read_array(Cursor& cursor, std::size_t count, std::vector<T>& out) {
+  std::array<T, 1024> piece;
+  out.reserve(count);
+  while (out.size() < count) {
+    const auto part = std::span(piece).first(std::min(piece.size(), count - out.size()));
+    cursor.get_all(part);
+    out.insert(out.end(), part.begin(), part.end());
+  }
 }
 
 const SectionEntry& entry_of(const PackContent& content, std::string_view name) {
@@ -273,12 +295,11 @@ Check read_transitions(const Section& section, SpriteData& data) {
     return finding("tran-size", "TRAN", section.offset,
                    number(count) + " transitions of 8 bytes, " + number(left) + " bytes are there");
   }
-  data.row_start.resize(rows);
-  cursor.get_all(std::span(data.row_start));
-  data.transitions.resize(count);
-  for (Transition& t : data.transitions) {
-    t.to = cursor.get<std::uint32_t>();
-    t.cost = cursor.get<float>();
+  read_array(cursor, rows, data.row_start);
+  data.transitions.reserve(count);
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const auto to = cursor.get<std::uint32_t>();
+    data.transitions.push_back({to, cursor.get<float>()});
   }
   return {};
 }
@@ -351,12 +372,9 @@ Check read_mode(const Section& section, SpriteData& data) {
                    number(mode.tables()) + " tables need " + number(due) + " bytes, " +
                        number(cursor.left()) + " are there");
   }
-  mode.next.resize(entries);
-  mode.go.resize(entries);
-  mode.arrived.resize(mode.by_state ? n : 0);
-  cursor.get_all(std::span(mode.next));
-  cursor.get_all(std::span(mode.go));
-  cursor.get_all(std::span(mode.arrived));
+  read_array(cursor, entries, mode.next);
+  read_array(cursor, entries, mode.go);
+  read_array(cursor, mode.by_state ? n : 0, mode.arrived);
   data.modes.push_back(std::move(mode));
   return {};
 }

@@ -277,13 +277,14 @@ Check check_go(const ControlMode& mode, std::span<const std::uint8_t> kept,
   for (std::size_t table = 0; table < mode.tables(); ++table) {
     const std::span<const float> go = std::span(mode.go).subspan(table * n, n);
     const auto is_good = [&](std::size_t i) {  // finite, >= 0; 0 where the sample was not kept
-      return (go[i] >= 0) & (go[i] <= (kept[i] != 0 ? std::numeric_limits<float>::max() : 0.0f));
+      const float most = kept[i] != 0 ? std::numeric_limits<float>::max() : 0.0f;
+      return int{go[i] >= 0} & int{go[i] <= most};
     };
-    bool all = true;
+    int all = 1;
     for (std::size_t i = 0; i < n; ++i) all &= is_good(i);
-    if (all) continue;
+    if (all != 0) continue;
     std::size_t bad = 0;
-    while (is_good(bad)) ++bad;
+    while (is_good(bad) != 0) ++bad;
     return finding("go", "CTRL", 0,
                    what + "table " + number(table) + ", sample " + number(bad) +
                        ": the cost to go is not a finite number >= 0, or not 0 for a sample that "
