@@ -10,6 +10,7 @@ target_sources(vsprite_precompute PRIVATE
   control/follow_bench.cpp
   control/joint.cpp
   control/lanes.cpp
+  control/loops.cpp
   control/solve.cpp
   control/reach.cpp
   control/response.cpp

@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: MIT
 #include "tool/export.h"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
 #include "tool/atlas.h"
+#include "tool/budget.h"
 #include "tool/files.h"
 #include "tool/page.h"
 #include "tool/settings.h"
@@ -69,24 +73,55 @@ std::string megabytes(double bytes) {
   return text;
 }
 
-Result<Json> write_page(const ExportJob& job) {
-  const auto pack = read_file(job.pack);
+std::span<const std::uint8_t> bytes_of(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+// The pack with so few samples that it takes `bytes`, through a file beside the output.
+Result<std::string> smaller_pack(const ExportJob& job, double bytes, Json& report) {
+  const std::string path = job.output + ".tmp." + std::to_string(getpid());
+  const auto fitted =
+      fit_pack(job.pack, path, {.bytes = bytes, .seed = job.seed, .jobs = job.jobs});
+  auto pack = fitted ? read_file(path) : Result<std::string>(fitted.error());
+  std::error_code ignored;
+  fs::remove(path, ignored);
+  if (!fitted && fitted.error().code == ErrorCode::BadContent)
+    return Error{ErrorCode::BadContent, fitted.error().message + ": raise --budget"};
   if (!pack) return pack.error();
+  report["samples"] = fitted->after.samples;
+  report["samples_before"] = fitted->before.samples;
+  report["turn_median"] = fitted->after.turn_median;
+  report["turn_median_before"] = fitted->before.turn_median;
+  return pack;
+}
+
+Result<Json> write_page(const ExportJob& job) {
   const auto place = job.page.empty() ? find_player_page() : job.page;
   if (!place) return place.error();
   const auto text = read_file(*place);
   if (!text) return text.error();
-  const auto page =
-      make_page(*text, *place, {reinterpret_cast<const std::uint8_t*>(pack->data()), pack->size()},
-                job.film.data().name);
+  const std::string& title = job.film.data().name;
+  auto page = make_page(*text, *place, bytes_of(job.pack_bytes), title);
   if (!page) return page.error();
-  if (static_cast<double>(page->size()) > job.page_limit * 1e6)
-    return Error{ErrorCode::LimitExceeded,
-                 job.pack + ": a page of " + megabytes(static_cast<double>(page->size())) +
-                     " would come of it, at most " + megabytes(job.page_limit * 1e6) +
-                     " are wanted: build the sprite smaller (--max-size 128), or raise --limit"};
+  Json report{{"file", job.output}, {"bytes", 0}, {"pack_bytes", job.pack_bytes.size()}};
+  const double limit = job.page_limit * 1e6;
+  if (static_cast<double>(page->size()) > limit) {
+    // In base64 three bytes take four.
+    const double frame = static_cast<double>(page->size()) -
+                         std::ceil(static_cast<double>(job.pack_bytes.size()) / 3) * 4;
+    if (frame >= limit)
+      return Error{ErrorCode::LimitExceeded, *place + ": takes " + megabytes(frame) +
+                                                 " without a pack, at most " + megabytes(limit) +
+                                                 " are wanted: raise --budget"};
+    const auto pack = smaller_pack(job, std::floor((limit - frame) / 4) * 3, report);
+    if (!pack) return pack.error();
+    report["pack_bytes"] = pack->size();
+    page = make_page(*text, *place, bytes_of(*pack), title);
+    if (!page) return page.error();
+  }
+  report["bytes"] = page->size();
   if (auto wrote = write_file(job.output, *page); !wrote) return wrote.error();
-  return Json{{"file", job.output}, {"bytes", page->size()}, {"pack_bytes", pack->size()}};
+  return report;
 }
 
 constexpr ExportFormat kFormats[] = {
@@ -182,7 +217,14 @@ Result<SampleChoice> choose_for_export(const Sprite& sprite, int limit, std::uin
   for (ControlMode& mode : data.modes) mode.plays_through = false;
   ChoiceConfig config{.seed = seed, .jobs = jobs};
   config.limit = limit > 0 ? limit : static_cast<double>(data.samples.size());
-  return choose_samples(data, config);
+  auto choice = choose_samples(data, config);
+  if (choice) return choice;
+  if (choice.error().code == ErrorCode::BadSetting)
+    return Error{ErrorCode::BadContent,
+                 data.name + ": its tables are none that were solved from a film"};
+  const bool too_few = limit > 0 && choice.error().code == ErrorCode::BadContent;
+  return Error{choice.error().code,
+               choice.error().message + (too_few ? ": raise --samples, or 0 for all" : "")};
 }
 
 Json character_json(const SpriteData& data, const std::vector<Json>& places) {

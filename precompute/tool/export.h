@@ -28,9 +28,12 @@ struct ExportJob {
   std::string output{};                    ///< the folder, which exists; or the file
   std::function<void(double)> progress{};  ///< 0..1; may be empty
   int godot = 4;                           ///< 3 or 4
-  std::string pack{};                      ///< html: the pack's file
+  std::string pack{};                      ///< html: the pack's name
+  std::string_view pack_bytes{};           ///< html: all of the pack
   std::string page{};                      ///< html: the template; empty: the installation's
-  double page_limit = 10;                  ///< html: MB
+  double page_limit = 10;                  ///< html: MB; samples are left out where it is more
+  std::uint64_t seed = 1;                  ///< html: by which they are chosen
+  int jobs = 0;                            ///< html: threads for that
 };
 
 /// What a format is made from.

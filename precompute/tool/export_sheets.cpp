@@ -232,7 +232,9 @@ Json texture_packer_json(const ExportJob& job, const Sheets& all, std::size_t nu
       frame["velocity"] = velocity_json(s);
       const std::string name = frame_name(run, k);
       for (int tick = 0; tick < s.duration; ++tick) names.push_back(name);
-      frames[name] = std::move(frame);
+      // Names are new, so none has to be looked for.
+      auto& object = frames.get_ref<Json::object_t&>();
+      static_cast<Json::object_t::Container&>(object).emplace_back(name, std::move(frame));
     }
     animations[run.name] = std::move(names);
   }

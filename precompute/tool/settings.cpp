@@ -337,7 +337,7 @@ void add_export_options(Row& t) {
   t.text("to", "FORMAT", &Settings::to,
          "a web page; a folder of atlas pages and tables; sheets or moving pictures of what each "
          "direction plays",
-         " export ", t.keep(export_names()))
+         " export loops ", t.keep(export_names()))
       .in_config = false;
   t.whole("samples", "N", &Settings::samples, 0, 1000000,
           "all but html: at most so many, chosen so that control loses least; 0 = all", " export ")
@@ -345,11 +345,21 @@ void add_export_options(Row& t) {
   t.text("order", "ORDER", &Settings::order,
          "sheets and moving pictures: the loop that each direction plays, or clips as filmed",
          " export ", "directions|film");
-  t.text("godot", "VERSION", &Settings::godot, "godot-tres: of which Godot", " export ", "4|3");
+  t.text("godot", "VERSION", &Settings::godot, "godot-tres: of which Godot", " export loops ",
+         "4|3");
+  t.text("length", "TICKS", &Settings::length,
+         "how long a loop is: N, or LEAST..MOST, of which the smoothest is taken", " loops ");
+  t.text("direction", "DIRECTION", &Settings::only_direction, "of this direction alone", " loops ",
+         "right|right+down|down|left+down|left|left+up|up|right+up|rest")
+      .in_config = false;
+  t.text("tag", "NAME", &Settings::only_tag, "of this tag alone", " loops ").in_config = false;
   t.text("template", "FILE", &Settings::page,
          "html: the page that takes the pack; default: player.html of the installation",
          " export ");
-  t.real("limit", "MB", &Settings::page_limit, 1, 1000, false, "html: largest page", " export ");
+  t.real("budget", "MB", &Settings::page_limit, 0.01, 1000, false,
+         "html: largest page; samples are left out in the order in which control loses least",
+         " export ")
+      .in_config = false;
 }
 
 void add_points_options(Row& t) {
@@ -418,8 +428,8 @@ void add_path_options(Row& t) {
 }
 
 void add_common_options(Row& t) {
-  t.text("output", "FILE", &Settings::output, "the file to write (export to tables: the folder)",
-         " segment build fit pack export dump play steer path report ")
+  t.text("output", "FILE", &Settings::output, "the file to write (most exports: the folder)",
+         " segment build fit pack export loops dump play steer path report ")
       .letter = 'o';
   t.text("work", "DIR", &Settings::work,
          "work folder; default: the pack's path with .work for .vsp",

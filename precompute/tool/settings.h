@@ -110,7 +110,10 @@ struct Settings {
   int samples = 256;                 ///< export: at most; 0: all
   std::string order = "directions";  ///< export: what is played where nothing is steered
   std::string godot = "4";
-  std::uint64_t proposals = 0;  ///< 0: as many as the seconds allow
+  std::string length = "20..40";     ///< loops: ticks
+  std::string only_tag;              ///< loops: empty: all
+  std::string only_direction;        ///< loops: empty: all
+  std::uint64_t proposals = 0;       ///< 0: as many as the seconds allow
   std::string resume;
   std::string clip;
   std::string plane = "screen";

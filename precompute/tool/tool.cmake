@@ -59,6 +59,7 @@ add_executable(vsprite
   tool/commands/help.cpp
   tool/commands/inspect.cpp
   tool/commands/label.cpp
+  tool/commands/loops.cpp
   tool/commands/parse.cpp
   tool/commands/train.cpp
   tool/commands/path.cpp

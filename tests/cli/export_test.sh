@@ -20,7 +20,7 @@ head -c 8000000 /dev/zero | tr '\0' ' ' >large.in; cat page.in >>large.in
 expect 0 vsprite export tiny.vsp --to html --template large.in -o large.html
 head -c 3000000 /dev/zero | tr '\0' ' ' >>large.in
 expect 3 vsprite export tiny.vsp --to html --template large.in -o b.html; says "at most 10.0 MB"; one_sentence
-expect 0 vsprite export tiny.vsp --to html --template large.in --limit 12 -o b.html
+expect 0 vsprite export tiny.vsp --to html --template large.in --budget 12 -o b.html
 echo nothing >empty.in
 expect 3 vsprite export tiny.vsp --to html --template empty.in; says "@VSPRITE_PACK@ is due"; one_sentence
 expect 66 vsprite export tiny.vsp --to html --template absent.in; one_sentence
@@ -38,6 +38,15 @@ is_json /to /samples /pages /folder
 for file in character.json page-0.png; do [ -s folder/$file ] || fail "no $file"; done
 expect 0 vsprite export ring.vsp --to png-seq; prints "ring-png-seq: "
 [ -s ring-png-seq/sample-000000.png ] || fail "no pictures"
+
+# A page within a budget: samples are left out, what stays is a pack.
+whole=$(stat -c %s ring.vsp); budget=$(awk "BEGIN { print 0.8 * $whole * 4 / 3 / 1e6 }")
+expect 0 vsprite export ring.vsp --to html --template page.in --budget "$budget" -o small.html --json
+is_json /samples /samples_before /turn_median /bytes
+sed -n 's,.*<script>\(.*\)</script>,\1,p' small.html | base64 -d >small.vsp
+expect 0 vsprite validate small.vsp
+[ "$(stat -c %s small.vsp)" -le $((whole * 8 / 10)) ] || fail "over the budget"
+expect 3 vsprite export ring.vsp --to html --template page.in --budget 0.01; says "raise --budget"; one_sentence
 
 # What plays itself: read back by other programs, against the pack's own pictures.
 for format in sheet+aseprite-json texturepacker-json godot-tres apng gif webm mkv-ffv1; do
@@ -84,5 +93,36 @@ expect 1 env PATH=/nowhere "$BIN/vsprite" export ring.vsp --to gif -o none; says
 expect 2 vsprite export ring.vsp --to tabel; says "html|table|png-seq|"; one_sentence
 expect 73 vsprite export ring.vsp --to table -o absent/folder; one_sentence
 expect 66 vsprite export absent.vsp --to table; one_sentence
+
+# The smoothest loops.
+expect 0 vsprite loops ring.vsp --json; is_json /loops/0/name /loops/0/ticks /loops/0/seam /loops/0/samples
+expect 0 vsprite loops ring.vsp --length 24..30 --direction right --to apng -o loops
+prints "right "; prints "loops: apng"
+grep -q '"seam":' loops/runs.json || fail "no seam in runs.json"
+[ -s loops/right.apng ] || fail "no loop"
+expect 3 vsprite loops ring.vsp --length 1 --direction right; says "no loop of 1 ticks for right"; one_sentence
+expect 2 vsprite loops ring.vsp --tag jump; says "no such tag"; one_sentence
+expect 2 vsprite loops tiny.vsp --tag swin; says "did you mean \`swim\`"; one_sentence
+expect 0 vsprite loops tiny.vsp --tag swim --length 13; prints "swim "; prints "13 ticks"
+for length in 0 1001 30..20 20.. x; do expect 2 vsprite loops ring.vsp --length $length; one_sentence; done
+expect 2 vsprite loops ring.vsp --direction up+down; one_sentence
+expect 2 vsprite loops ring.vsp --to table; says "holds no loops"; one_sentence
+expect 2 vsprite loops ring.vsp -o x; says "--to FORMAT is due"; one_sentence
+expect 2 vsprite loops; one_sentence
+expect 66 vsprite loops absent.vsp; one_sentence
+expect 73 vsprite loops ring.vsp --to gif -o absent/folder; one_sentence
+
+# A pack without frames, one with 100,000, and places that cannot be written.
+"$BIN/draw_puppets" art && expect 0 vsprite fit art/face.toml -o face.vsp
+for format in table gif; do expect 3 vsprite export face.vsp --to $format; one_sentence; done
+"$BIN/tiny_pack" long.vsp 100000 || fail "tiny_pack"
+expect 0 vsprite export long.vsp --to texturepacker-json --order film --samples 0
+prints "100000 samples of 100000"
+echo file >occupied
+expect 73 vsprite export ring.vsp --to table -o occupied; one_sentence
+expect 73 vsprite export ring.vsp --to webm -o occupied; one_sentence
+mkdir taken taken/character.json taken/right.gif
+expect 74 vsprite export ring.vsp --to table -o taken; one_sentence
+expect 74 vsprite export ring.vsp --to gif -o taken; one_sentence
 no_temporaries
 finish

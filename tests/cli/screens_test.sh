@@ -9,7 +9,7 @@ prints "usage: vsprite build FILM -o PACK"
 [ "$(awk 'length > 100' "$room/stdout" | wc -l)" -le 1 ] || fail "the screen is too wide"
 expect 0 vsprite --version
 prints "vsprite 0.1.0"
-for verb in segment label train transitions solve pack build steer path info report validate export dump doctor; do
+for verb in segment label train transitions solve pack build steer path info report validate loops export dump doctor; do
   expect 0 vsprite help $verb
   prints "example:"
   expect 0 vsprite $verb --help

@@ -14,6 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+PackReader reader_of(const std::string& pack, const std::string& name) {
+  return {pack.size(), name, [&pack](std::uint64_t offset, std::span<std::uint8_t> out) {
+            pack.copy(reinterpret_cast<char*>(out.data()), out.size(),
+                      static_cast<std::size_t>(offset));
+            return true;
+          }};
+}
+
 // Chooses the samples that a format wants, and lays down what is played.
 Result<void> fill(ExportJob& job, ExportNeed need, const Settings& settings) {
   const bool as_filmed = settings.order == "film";
@@ -23,9 +31,7 @@ Result<void> fill(ExportJob& job, ExportNeed need, const Settings& settings) {
     job.choice = take_samples(job.film.data(), kept);
   } else {
     auto choice = choose_for_export(job.film, settings.samples, settings.seed, settings.jobs);
-    if (!choice)
-      return Error{choice.error().code, settings.film + ": " + choice.error().message +
-                                            ": raise --samples, or 0 for all"};
+    if (!choice) return Error{choice.error().code, settings.film + ": " + choice.error().message};
     job.choice = std::move(*choice);
   }
   if (need == ExportNeed::Runs)
@@ -37,8 +43,16 @@ std::string summary(const Json& wrote, const ExportFormat& format, const Sprite&
   char text[64];
   if (format.need == ExportNeed::Pack) {
     std::snprintf(text, sizeof text, ": %.1f MB, ", static_cast<double>(wrote["bytes"]) / 1e6);
-    return wrote["file"].get<std::string>() + text +
-           "opens by a double click, steered with arrow keys, W A S D or a finger\n";
+    std::string page = wrote["file"].get<std::string>() + text +
+                       "opens by a double click, steered with arrow keys, W A S D or a finger\n";
+    if (!wrote.contains("samples")) return page;
+    const auto figure = [&](const char* key) {
+      std::snprintf(text, sizeof text, "%.0f", wrote[key].get<double>());
+      return std::string(text);
+    };
+    return page + figure("samples") + " samples of " + figure("samples_before") +
+           " fit the budget, and turn in " + figure("turn_median") +
+           " frames in the median where all turn in " + figure("turn_median_before") + "\n";
   }
   std::string runs = "character.json steers them";
   if (format.need == ExportNeed::Runs) {
@@ -59,13 +73,21 @@ Result<int> run_export(const Settings& settings, Console& console) {
   const auto format = find_export_format(settings.to);
   if (!format) return format.error();
   const ExportFormat& to = **format;
-  const auto sprite = load_pack(settings.film);
+  // A page holds the pack itself: then it is read once, as a whole.
+  const auto pack =
+      to.need == ExportNeed::Pack ? read_file(settings.film) : Result<std::string>(std::string());
+  if (!pack) return pack.error();
+  const auto sprite = to.need == ExportNeed::Pack ? load_pack(reader_of(*pack, settings.film))
+                                                  : load_pack(settings.film);
   if (!sprite) return sprite.error();
   const bool is_file = to.need == ExportNeed::Pack;
   const StageListener listener = console.listener();
   ExportJob job{.film = *sprite, .progress = listener.progress};
   job.godot = settings.godot == "3" ? 3 : 4;
   job.pack = settings.film;
+  job.pack_bytes = *pack;
+  job.seed = settings.seed;
+  job.jobs = settings.jobs;
   job.page = settings.page;
   job.page_limit = settings.page_limit;
   job.output = !settings.output.empty()

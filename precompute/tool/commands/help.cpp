@@ -40,8 +40,11 @@ constexpr Verb kVerbs[] = {
      "vsprite report hamster.vsp -o hamster.html", run_report},
     {"validate", "PACK", "check a pack, byte by byte", "vsprite validate hamster.vsp",
      run_validate},
+    {"loops", "PACK", "the smoothest loop of every direction and tag, for engines that only play",
+     "vsprite loops hamster.vsp --length 24 --direction right --to gif -o hamster-right",
+     run_loops},
     {"export", "PACK --to FORMAT",
-     "a character for other places: a web page, or tables and atlas pages for any engine",
+     "a character for other places: a web page, tables, sprite sheets, moving pictures",
      "vsprite export hamster.vsp --to table --samples 600 -o hamster", run_export},
     {"dump", "FILM|PACK|--work DIR", "the numbers behind a sprite, as npy or csv",
      "vsprite dump --work hamster.work --what transitions --format npy -o t.npy", run_dump},
@@ -114,8 +117,8 @@ std::string overview_screen() {
       "  info    what a pack contains    validate  check a pack, byte by byte\n"
       "  dump    the numbers, as npy/csv doctor    what is wrong here\n"
       "  path    follow a drawn path     report    what to film next, as a page\n"
-      "  export  as one web page         points    place control points over drawn views\n"
-      "  fit     drawn views -> puppets\n"
+      "  export  for web, other engines  points    place control points over drawn views\n"
+      "  fit     drawn views -> puppets  loops     the smoothest loop of a length\n"
       "\n"
       "common:  --jobs N  --seed N  --config FILE.toml  --json  --quiet  --progress MODE  "
       "--version  "

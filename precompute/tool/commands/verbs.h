@@ -54,6 +54,7 @@ Result<int> run_report(const Settings&, Console&);
 Result<int> run_info(const Settings&, Console&);
 Result<int> run_validate(const Settings&, Console&);
 Result<int> run_dump(const Settings&, Console&);
+Result<int> run_loops(const Settings&, Console&);
 Result<int> run_export(const Settings&, Console&);
 Result<int> run_doctor(const Settings&, Console&);
 
