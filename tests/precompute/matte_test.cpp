@@ -70,6 +70,77 @@ TEST(Matte, IsNearTheKnownMatte) {
   EXPECT_LT(rest / rest_count, 0.0005);
 }
 
+// The frame with each channel's light times a gain, as an exposure or a white balance that steps.
+Frame relit(const Image& image, const double (&gain)[3], int index) {
+  Image lit = image;
+  for (std::size_t i = 0; i < lit.rgba.size(); ++i)
+    if (i % 4 < 3)
+      lit.rgba[i] = static_cast<std::uint8_t>(
+          SyntheticFilm::code(SyntheticFilm::linear(lit.rgba[i]) * gain[i % 4]) + 0.5);
+  return to_frame(lit, index);
+}
+
+// Mean |alpha - truth| of a disc within 8 px of its edge.
+double band_error(const KeyedFrame& keyed, const SyntheticFilm& film, const Disc& disc) {
+  SyntheticFilm wide = film;
+  wide.softness += 16;
+  double error = 0;
+  int count = 0;
+  for (int y = 0; y < film.height; ++y)
+    for (int x = 0; x < film.width; ++x) {
+      const double reach = wide.alpha(disc, x, y);
+      if (reach <= 0 || reach >= 1) continue;
+      error += std::abs(alpha_of(keyed, x, y) / 255.0 - film.alpha(disc, x, y));
+      ++count;
+    }
+  return error / count;
+}
+
+// Half of the film is lit otherwise, in one step: the plate is an average of both, and neither half
+// is keyed much worse than a film that is lit as one.
+TEST(Matte, FollowsAStepOfExposureAndOfWhiteBalance) {
+  const double gains[][3] = {{1.15, 1.15, 1.15}, {0.85, 0.85, 0.85}, {1.08, 1, 0.92}};
+  const double plain = band_error(Keyer(scene().screen, {}).key(scene().frames[12], nullptr),
+                                  scene().film, scene().discs[12]);
+  for (const auto& gain : gains) {
+    std::vector<Frame> frames = scene().frames;
+    for (std::size_t i = 8; i < frames.size(); ++i)
+      frames[i] = relit(scene().film.image(static_cast<int>(i), {scene().discs[i]}), gain,
+                        static_cast<int>(i));
+    const auto screen = measure_screen(frames, {});
+    ASSERT_TRUE(screen) << screen.error().message;
+    for (const std::size_t i : {3, 7, 8, 12}) {
+      const KeyedFrame keyed = Keyer(*screen, {}).key(frames[i], nullptr);
+      ASSERT_EQ(keyed.blobs.size(), 1u) << "frame " << i;
+      EXPECT_NEAR(keyed.blobs[0].anchor_x, scene().discs[i].x, 0.4) << "frame " << i;
+      EXPECT_LT(band_error(keyed, scene().film, scene().discs[i]), plain + 0.015)
+          << "frame " << i << ", gain " << gain[0] << " " << gain[2];
+    }
+  }
+}
+
+// What stands still looks the same in every frame but for the film's noise.
+TEST(Matte, DoesNotFlickerAboutWhatStandsStill) {
+  std::vector<KeyedFrame> keyed;
+  const Disc& disc = scene().discs[6];
+  for (int i = 0; i < 6; ++i)
+    keyed.push_back(Keyer(scene().screen, {}).key(scene().film.frame(100 + i, {disc}), nullptr));
+  double change = 0;
+  int count = 0;
+  for (std::size_t k = 1; k < keyed.size(); ++k)
+    for (int y = 0; y < scene().film.height; ++y)
+      for (int x = 0; x < scene().film.width; ++x) {
+        const int a = alpha_of(keyed[k - 1], x, y);
+        const int b = alpha_of(keyed[k], x, y);
+        if ((a == 0 && b == 0) || (a == 255 && b == 255)) continue;
+        change += std::abs(a - b) / 255.0;
+        ++count;
+      }
+  ASSERT_GT(count, 0);
+  RecordProperty("flicker_of_the_edge", std::to_string(change / count));
+  EXPECT_LT(change / count, 0.035);
+}
+
 TEST(Matte, KeepsTheSubjectsOwnColor) {
   Keyer keyer(scene().screen, {});
   const KeyedFrame keyed = keyer.key(scene().frames[5], nullptr);
