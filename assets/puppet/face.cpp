@@ -15,6 +15,7 @@ namespace {
 
 constexpr float kA = 100, kB = 128, kC = 80;  // half axes: across, up, forwards
 constexpr Vec2 kCenter{160, 186};
+constexpr int kKnots = 28;  // of the outlines of face and hair
 constexpr std::uint32_t kSkin = 0xf6c9a0, kSkinDark = 0xdd9670, kLine = 0x5a3227, kHair = 0x8a4b2a,
                         kHairLight = 0xb8733c, kHairDark = 0x5f2f1c;
 
@@ -92,8 +93,8 @@ class Head {
                       du * 0.9f * std::sin(turn_) * side,
                   kCenter.y + v};
     };
-    return {place(-8, -22), place(8, -34), place(20, -24),
-            place(19, 0),   place(10, 20), place(-6, 22)};
+    return {place(-8, -22), place(4, -32), place(11, -22),
+            place(10, 0),   place(5, 20),  place(-6, 22)};
   }
   // The hair's edge over the forehead, from left to right.
   Path fringe() const {
@@ -110,6 +111,21 @@ class Head {
       out.push_back(rim(a, 1.13f));
     }
     return out;
+  }
+  // The hair's outline behind the face.
+  Path hair_back() const {
+    Path out = outline(1.13f, kKnots);
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      const float low =
+          std::sin(2 * std::numbers::pi_v<float> * static_cast<float>(k) / kKnots) - 0.3f;
+      out[k].y -= 40 * std::max(0.0f, low);
+    }
+    return out;
+  }
+  // Of strand k = 1..6: from the crown to the fringe.
+  Path strand(std::size_t k) const {
+    const Vec2 a = hair_top()[k + 1], b = fringe()[k];
+    return {{a.x, a.y + 8}, {0.5f * (a.x + b.x) - 10, 0.5f * (a.y + b.y) - 4}, b};
   }
   Path neck() const {
     const float s = 8 * std::sin(turn_);
@@ -128,8 +144,9 @@ class Head {
 void append(Path& to, const Path& more) { to.insert(to.end(), more.begin(), more.end()); }
 
 Path control_points(const Head& head) {
-  Path out = head.outline(1.0f, 14);
-  append(out, head.outline(1.24f, 14));
+  Path out = head.outline(1.0f, kKnots);
+  append(out, head.hair_back());
+  append(out, head.outline(1.24f, kKnots));
   for (const float side : {-1.0f, 1.0f}) {
     append(out, head.eye(side));
     out.push_back(head.pupil(side));
@@ -139,6 +156,9 @@ Path control_points(const Head& head) {
   append(out, head.mouth());
   append(out, head.fringe());
   append(out, head.ear(-1));
+  const Path neck = head.neck();
+  for (const auto& [top, low] : {std::pair{neck[0], neck[3]}, {neck[1], neck[2]}})
+    out.push_back({top.x + 0.55f * (low.x - top.x), top.y + 0.55f * (low.y - top.y)});
   out.push_back(head.at(-62, 38)), out.push_back(head.at(62, 38));
   append(out, {{60, 356}, {260, 356}, {kCenter.x - 50, 330}, {kCenter.x + 48, 330}});
   return out;
@@ -198,12 +218,8 @@ void draw_hair_front(Canvas& canvas, const Head& head) {
   hair.insert(hair.end(), fringe.rbegin(), fringe.rend());
   const Vec2 top = head.rim(-std::numbers::pi_v<float> / 2, 1.13f);
   canvas.fill(hair, fade(kHairLight, kHair, top, {top.x, top.y + 120}));
-  for (int k = 1; k < 7; ++k) {  // strands
-    const Path tops = head.hair_top();
-    const Vec2 a = tops[static_cast<std::size_t>(k + 1)],
-               b = head.fringe()[static_cast<std::size_t>(k == 6 ? 6 : k)];
-    const Vec2 bend{0.5f * (a.x + b.x) - 10, 0.5f * (a.y + b.y) - 4};
-    canvas.shade(stroke(smooth_line({{a.x, a.y + 8}, bend, b}), 3, 1),
+  for (std::size_t k = 1; k < 7; ++k) {
+    canvas.shade(stroke(smooth_line(head.strand(k)), 3, 1),
                  flat(k % 2 ? kHairDark : kHairLight, 0.5f));
   }
   canvas.fill(stroke(fringe, 3), flat(kHairDark));
@@ -213,13 +229,7 @@ void draw_hair_front(Canvas& canvas, const Head& head) {
 Image paint_face(const Head& head) {
   Canvas canvas(320, 360);
   // Back of the hair, neck and shoulders.
-  Path back;
-  for (int k = 0; k < 14; ++k) {
-    const float a = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / 14;
-    Vec2 p = head.rim(a, 1.12f);
-    if (std::sin(a) > 0.3f) p.y -= 40 * (std::sin(a) - 0.3f);
-    back.push_back(p);
-  }
+  const Path back = head.hair_back();
   canvas.fill(smooth(back), fade(kHair, kHairDark, {160, 60}, {160, 300}));
   canvas.outline(smooth(back), kHairDark, 3.5f);
   const Path neck = head.neck();
@@ -227,9 +237,8 @@ Image paint_face(const Head& head) {
   canvas.fill(
       smooth({{62, 352}, {88, 333}, {122, 322}, {160, 342}, {198, 322}, {234, 333}, {258, 352}}),
       fade(0x3f7c86, 0x2f5f70, {160, 320}, {160, 356}));
-  draw_ear(canvas, head.ear(1));
   // The face.
-  const Path face = smooth(head.outline(1.0f, 14));
+  const Path face = smooth(head.outline(1.0f, kKnots));
   canvas.fill(face, fade(0xffdcb8, kSkin, {160, 90}, {160, 300}));
   canvas.shade(face, {.from = kSkinDark,
                       .to = kSkinDark,
@@ -238,7 +247,7 @@ Image paint_face(const Head& head) {
                       .alpha = 0,
                       .alpha_end = 0.75f});
   canvas.outline(face, kLine, 3.5f);
-  if (head.turn() > 0) draw_ear(canvas, head.ear(-1));
+  draw_ear(canvas, head.ear(-1));  // hair covers the other one
   for (const float side : {-1.0f, 1.0f}) {
     const Vec2 cheek = head.at(side * 54, 34);
     canvas.shade(face, glow(0xe8705a, cheek, 30, 0.38f + 0.2f * head.anger()));
