@@ -14,7 +14,6 @@ same() {  # same NAME VARIABLE=VALUE... -- OPTION...
   expect 0 env "${settings[@]}" "$BIN/vsprite" build c.mp4 -o c.vsp "$@"
   [ "$(sum c.vsp)" = "$good" ] || fail "another pack with $name"
 }
-same "two threads" A=1 -- --jobs 2
-same "four threads" A=1 -- --jobs 4
+for jobs in 2 3 4 8 16; do same "$jobs threads" A=1 -- --jobs $jobs; done
 same "a plain libm" GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F -- --jobs 3
 finish
