@@ -39,6 +39,31 @@ float standing_y(const Character& c, float height) {
   return kGround + kSole - c.scale * (lowest(c.pose) + height);
 }
 
+// The turn of `angle` that is nearest to the middle of a range, within it.
+double within(double angle, const double (&range)[2]) {
+  const double middle = (range[0] + range[1]) / 2;
+  angle -= kTau * std::floor((angle - middle) / kTau + 0.5);
+  return std::clamp(angle, range[0], range[1]);
+}
+
+// Angles within the examples' ranges for a hand as near to `target` as may be: with the shoulder as
+// it ought to be, or at either end of its range, the elbow turns the forearm to the target.
+ArmReach nearest_reach(Vec2 target, double upper, double fore) {
+  const ArmReach free = reach_for(kShoulder, target, upper, fore, -1);
+  ArmReach best;
+  double least = HUGE_VAL;
+  for (const double shoulder :
+       {within(free.shoulder, kShoulderRange), kShoulderRange[0], kShoulderRange[1]}) {
+    const double x = kShoulder.x + upper * std::cos(shoulder),
+                 y = kShoulder.y + upper * std::sin(shoulder);
+    const double elbow = within(std::atan2(target.y - y, target.x - x) - shoulder, kElbowRange);
+    const double off = std::hypot(x + fore * std::cos(shoulder + elbow) - target.x,
+                                  y + fore * std::sin(shoulder + elbow) - target.y);
+    if (off < least - 1e-6) least = off, best = {shoulder, elbow};
+  }
+  return best;
+}
+
 // px that the ground goes back under the foot that stands on it, in one cycle.
 float measure_stride(const Puppet& puppet) {
   constexpr int kSteps = 60;
@@ -178,13 +203,11 @@ void Stage::step_arm(const Held& keys) noexcept {
   target_ = {std::clamp(target_.x + 420 * keys.x * kTick, 0.0f, kStage.x),
              std::clamp(target_.y + 420 * keys.y * kTick, 0.0f, kStage.y)};
   // Appendix A: the shoulder stays, the hand goes to the point; beyond reach it points there.
-  const ArmReach reach = reach_for(kShoulder, target_, upper_, fore_, -1);
-  double to = reach.shoulder;
-  while (to > (kShoulderRange[0] + kShoulderRange[1]) / 2 + kTau / 2) to -= kTau;
-  while (to < (kShoulderRange[0] + kShoulderRange[1]) / 2 - kTau / 2) to += kTau;
+  // Where no pose that was drawn gets there, the one whose hand comes nearest is taken.
+  const ArmReach reach = nearest_reach(target_, upper_, fore_);
   constexpr double kFollow = 0.18;
-  shoulder_ += kFollow * (std::clamp(to, kShoulderRange[0], kShoulderRange[1]) - shoulder_);
-  elbow_ += kFollow * (std::clamp(reach.elbow, kElbowRange[0], kElbowRange[1]) - elbow_);
+  shoulder_ += kFollow * (reach.shoulder - shoulder_);
+  elbow_ += kFollow * (reach.elbow - elbow_);
   Character& c = all(Scene::Arm)[0];
   pose_puppet(*c.puppet, std::array{shoulder_, elbow_}, c.pose);
   const Vec2 joint = c.pose.points[kUpperJoint];

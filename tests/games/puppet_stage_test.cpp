@@ -107,5 +107,22 @@ TEST(PuppetStage, TheHandGoesToThePointAndTheShoulderStays) {
   EXPECT_NEAR(stage.hand().y, kShoulder.y, 14);
 }
 
+// Behind the back, where no drawn pose gets: the hand is as near as any pose would bring it.
+TEST(PuppetStage, TheHandComesAsNearAsTheDrawingsLetIt) {
+  Stage stage = stage_of(Scene::Arm);
+  for (const Vec2 target : {Vec2{500, 620}, Vec2{640, 390}, Vec2{60, 700}, Vec2{540, 30}}) {
+    float nearest = 1e9f;
+    for (int k = 0; k < 64; ++k) {  // poses on the way to points all around
+      const float angle = 0.0982f * static_cast<float>(k), r = k % 2 ? 150.0f : 400.0f;
+      run(stage, 120,
+          {0, 0, Vec2{kShoulder.x + r * std::cos(angle), kShoulder.y + r * std::sin(angle)}});
+      nearest = std::min(nearest, std::hypot(stage.hand().x - target.x, stage.hand().y - target.y));
+    }
+    run(stage, 120, {0, 0, target});
+    EXPECT_LT(std::hypot(stage.hand().x - target.x, stage.hand().y - target.y), nearest + 12)
+        << target.x << ", " << target.y;
+  }
+}
+
 }  // namespace
 }  // namespace vsprite::puppet
