@@ -146,17 +146,23 @@ class Chooser {
     auto tried = attempt(chosen_);
     if (!tried) return tried.error();
     protect_actions();
+    double under = 0;  // how far below the limit a round goes
     for (double share = config_.share; weight(chosen_) > config_.limit;) {
-      std::vector<std::uint8_t> fewer = without_least(share);
+      const double left = weight(chosen_), due = config_.limit * (1 - under);
+      std::vector<std::uint8_t> fewer = without_least(left, std::max(due, left * (1 - share)));
       auto next = fewer == chosen_ || !is_complete(fewer) ? Result<bool>(false) : attempt(fewer);
       if (!next) return next.error();
       if (*next) {
         share = std::min(config_.share, 2 * share);
+        under = 0;
+      } else if (left * (1 - share) <= due && under < config_.share) {
+        under = under == 0 ? std::ldexp(config_.share, -kHalvings) : 2 * under;
       } else if (share > std::ldexp(config_.share, -kHalvings)) {
         share /= 2;
       } else if (is_strict_) {
         is_strict_ = false;  // small means slow, then
         share = config_.share;
+        under = 0;
       } else {
         return Error{ErrorCode::BadContent,
                      data_.name + ": " + amount(weight(chosen_)) + " is the least that serves " +
@@ -225,15 +231,13 @@ class Chooser {
       if (chosen_[i] != 0 && is_steered[data_.samples[i].tag] == 0) is_protected_[i] = 1;
   }
 
-  std::vector<std::uint8_t> without_least(double share) const {
+  std::vector<std::uint8_t> without_least(double left, double goal) const {
     std::vector<std::uint32_t> order;
     for (std::uint32_t i = 0; i < chosen_.size(); ++i)
       if (chosen_[i] != 0 && is_protected_[i] == 0) order.push_back(i);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return shown_[a] < shown_[b]; });
     std::vector<std::uint8_t> fewer = chosen_;
-    double left = weight(chosen_);
-    const double goal = std::max(config_.limit, left * (1 - share));
     for (std::size_t k = 0; k < order.size() && left > goal; ++k) {
       fewer[order[k]] = 0;
       left -= weight_of(order[k]) + config_.transition_weight * ways_of(order[k]);

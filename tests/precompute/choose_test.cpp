@@ -43,6 +43,22 @@ TEST(Choose, EveryDirectionAndTagIsStillThereInThreeFifthsOfTheSamples) {
   EXPECT_EQ(tags, (std::set<int>{0, 1}));
 }
 
+// Whole runs go, so a limit may lie just below what is left and far above what comes next.
+TEST(Choose, EveryLimitAboveOneThatIsMetIsMetToo) {
+  const SpriteData full = tiny_sprite_data();
+  ChoiceConfig config = at_most(0);
+  config.ticks = 3000;
+  config.weights.assign(full.samples.size(), 10);
+  config.transition_weight = 4;
+  const double all = 10.0 * static_cast<double>(full.samples.size()) +
+                     4.0 * static_cast<double>(full.transitions.size());
+  for (int percent = 98; percent > 60; percent -= 2) {
+    config.limit = 0.01 * percent * all;
+    const auto choice = choose_samples(full, config);
+    ASSERT_TRUE(choice) << percent << ": " << choice.error().message;
+  }
+}
+
 TEST(Choose, TheSameChoiceEveryTime) {
   const SpriteData full = tiny_sprite_data();
   const auto a = choose_samples(full, at_most(60)), b = choose_samples(full, at_most(60));
