@@ -298,12 +298,12 @@ void solve_alpha(Patch& patch, float spill, bool final) {
 bool add_unexplained(Patch& patch) {
   Mask odd(patch.width, patch.height);
   lanes().above(patch.residual.data(), kUnexplained, odd.in.size(), odd.in.data());
-  each_span(patch, [&](std::size_t at, std::size_t count) {
-    for (std::size_t i = at; i < at + count; ++i)
-      if (std::max(patch.key[i], patch.bound[i]) <= kCovered) odd.in[i] = 0;
-  });
   lanes().spread_into(patch.seeds.in.data(), odd.in.size(), true, odd.in.data());
   Mask core = erode(odd, 2);
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    for (std::size_t i = at; i < at + count; ++i)
+      if (std::max(patch.key[i], patch.bound[i]) <= kCovered) core.in[i] = 0;
+  });
   lanes().spread_into(patch.seeds.in.data(), core.in.size(), true, core.in.data());
   const bool added = core.in != patch.seeds.in;
   patch.seeds = std::move(core);
