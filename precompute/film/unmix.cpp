@@ -21,7 +21,7 @@ constexpr float kRimSpill = 0.08f;      // rim, where screen light falls from be
 constexpr float kFarWeight = 0.02f;     // of the wide neighbourhood against the near one
 constexpr float kGlobalWeight = 1e-4f;  // of the whole patch
 constexpr float kUnexplained = 12;      // residual of what no mixture explains
-constexpr float kCovered = 0.6f;        // share of the screen that is gone where that is opaque
+constexpr float kCovered = 0.8f;        // share of the screen that is gone where that is opaque
 constexpr std::size_t kRoom = 16;       // cells behind the last
 
 // sigma_n in linear light of `codes` code values at each sum of four.
@@ -294,17 +294,23 @@ void solve_alpha(Patch& patch, float spill, bool final) {
 }
 
 // What no mixture explains, with all its neighbours, is another part of the subject: surely if most
-// of the screen is gone there. A veil of another colour leaves it in sight.
+// of the screen is gone about there. A veil of another colour leaves it in sight.
 bool add_unexplained(Patch& patch) {
+  const std::size_t n = patch.cells();
   Mask odd(patch.width, patch.height);
-  lanes().above(patch.residual.data(), kUnexplained, odd.in.size(), odd.in.data());
-  lanes().spread_into(patch.seeds.in.data(), odd.in.size(), true, odd.in.data());
+  lanes().above(patch.residual.data(), kUnexplained, n, odd.in.data());
+  lanes().spread_into(patch.seeds.in.data(), n, true, odd.in.data());
   Mask core = erode(odd, 2);
+  std::vector<float> gone(n), about(n);
   each_span(patch, [&](std::size_t at, std::size_t count) {
     for (std::size_t i = at; i < at + count; ++i)
-      if (std::max(patch.key[i], patch.bound[i]) <= kCovered) core.in[i] = 0;
+      gone[i] = std::clamp(std::max(patch.key[i], patch.bound[i]), 0.0f, 1.0f);
   });
-  lanes().spread_into(patch.seeds.in.data(), core.in.size(), true, core.in.data());
+  lanes().blur3(gone.data(), patch.width, patch.height, patch.scratch.data(), about.data());
+  Mask covered(patch.width, patch.height);
+  lanes().above(about.data(), kCovered, n, covered.in.data());
+  lanes().spread_into(covered.in.data(), n, false, core.in.data());
+  lanes().spread_into(patch.seeds.in.data(), n, true, core.in.data());
   const bool added = core.in != patch.seeds.in;
   patch.seeds = std::move(core);
   return added;
