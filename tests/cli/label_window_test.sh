@@ -8,7 +8,7 @@ if ! command -v xvfb-run >/dev/null || ! command -v xdotool >/dev/null; then
   echo "SKIPPED: xvfb or xdotool is missing"; exit 77
 fi
 if [ -z "${LABEL_DISPLAY:-}" ]; then
-  LABEL_DISPLAY=1 exec xvfb-run -a -s "-screen 0 1280x760x24" bash "$0" "$@"
+  LABEL_DISPLAY=1 exec xvfb-run -a -s "-noreset -screen 0 1280x760x24" bash "$0" "$@"
 fi
 given=$(realpath "${2:-/nowhere}")
 . "$(dirname "$0")/lib.sh"

@@ -7,7 +7,7 @@ if ! command -v xvfb-run >/dev/null || ! command -v xdotool >/dev/null; then
   echo "SKIPPED: xvfb or xdotool is missing"; exit 77
 fi
 if [ -z "${PATH_DISPLAY:-}" ]; then
-  PATH_DISPLAY=1 exec xvfb-run -a -s "-screen 0 1280x760x24" bash "$0" "$@"
+  PATH_DISPLAY=1 exec xvfb-run -a -s "-noreset -screen 0 1280x760x24" bash "$0" "$@"
 fi
 shot=${VSPRITE_SHOT:+$(realpath "$VSPRITE_SHOT")}
 . "$(dirname "$0")/lib.sh"

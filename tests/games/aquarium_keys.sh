@@ -5,7 +5,7 @@
 # starts the round, Escape ends the program. 77: xvfb or xdotool is missing.
 command -v xvfb-run >/dev/null && command -v xdotool >/dev/null || { echo "skipped: xvfb or xdotool is missing"; exit 77; }
 if [ -z "$AQUARIUM_DISPLAY" ]; then
-  AQUARIUM_DISPLAY=1 exec xvfb-run -a -s "-screen 0 320x180x24" bash "$0" "$@"
+  AQUARIUM_DISPLAY=1 exec xvfb-run -a -s "-noreset -screen 0 320x180x24" bash "$0" "$@"
 fi
 log=$(mktemp)
 XDG_DATA_HOME=/proc/nowhere SDL_AUDIODRIVER=dummy "$1" "$2" --size 320x180 --frames 9000 >"$log" 2>&1 &
