@@ -1,14 +1,19 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// What a puppet costs: posing it, drawing it, fitting it. One thread.
+// What a puppet costs: posing it, drawing it, fitting it. One thread, and the driver's own.
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "puppet/art.h"
 #include "vsprite/compose.h"
 #include "vsprite/random.h"
+#ifdef VSPRITE_BENCH_DRAW
+#include "vsprite/draw.h"
+#include "vsprite/window.h"
+#endif
 
 namespace vsprite {
 namespace {
@@ -72,6 +77,77 @@ void FitThirtyViewsOfTwoHundredPoints(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fit_rbf(e));
 }
 BENCHMARK(FitThirtyViewsOfTwoHundredPoints)->Unit(benchmark::kMillisecond);
+
+#ifdef VSPRITE_BENCH_DRAW
+using Clock = std::chrono::steady_clock;
+
+// A frame of 1,000 walkers of one puppet, each in a pose of its own, on the renderer: their height
+// in px, and the side of the square frame. The counters are milliseconds a frame: posing;
+// draw_puppet, until nothing is left but to tell the driver; the driver's calls; and what it still
+// needs to finish, which for a software driver is vertices and pixels. A frame of 1 px leaves no
+// pixels.
+void DrawThousandWalkers(benchmark::State& state) {
+  constexpr int kCount = 1000;
+  const int side = static_cast<int>(state.range(1));
+  Result<Window> window = Window::open({.width = side, .height = side, .headless = true});
+  if (!window) return state.SkipWithError(window.error().message.c_str());
+  Result<Renderer> renderer = make_renderer(Window::gl_function);
+  if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
+  const Puppet puppet = first(puppet_art::walk_views());
+  const Result<PuppetSkin> skin = renderer->make_skin(puppet);
+  if (!skin) return state.SkipWithError(skin.error().message.c_str());
+  const float scale =
+      static_cast<float>(state.range(0)) / static_cast<float>(puppet.views[0].picture.height);
+  std::vector<PuppetPose> poses(kCount, make_pose(puppet));
+  std::vector<Vec2> places;
+  Random random{3};
+  for (int k = 0; k < kCount; ++k) {
+    const auto x = static_cast<float>(random.unit() * side);
+    places.push_back({x, static_cast<float>(random.unit() * side)});
+  }
+  double phase = 0, posing = 0, drawing = 0, driver = 0, waiting = 0;
+  const auto frame = [&] {
+    const auto start = Clock::now();
+    for (PuppetPose& pose : poses) {
+      phase += 0.00617;
+      pose_puppet(puppet, std::array{std::cos(phase), std::sin(phase)}, pose);
+    }
+    const auto posed = Clock::now();
+    renderer->begin_frame(side, side);
+    for (std::size_t k = 0; k < kCount; ++k)
+      renderer->draw_puppet(puppet, poses[k], *skin, places[k], scale);
+    const auto drawn = Clock::now();
+    renderer->end_frame();
+    window->swap();
+    const auto sent = Clock::now();
+    renderer->wait();
+    const auto done = Clock::now();
+    const auto ms = [](auto span) {
+      return std::chrono::duration<double, std::milli>(span).count();
+    };
+    posing += ms(posed - start), drawing += ms(drawn - posed);
+    driver += ms(sent - drawn), waiting += ms(done - sent);
+  };
+  frame();  // everything has grown
+  posing = drawing = driver = waiting = 0;
+  for (auto _ : state) frame();
+  const auto a_frame = benchmark::Counter::kAvgIterations;
+  state.counters["pose"] = {posing, a_frame};
+  state.counters["draw"] = {drawing, a_frame};
+  state.counters["driver"] = {driver, a_frame};
+  state.counters["finish"] = {waiting, a_frame};
+  state.counters["batches"] = static_cast<double>(renderer->stats().batches);
+  state.counters["puppets"] = static_cast<double>(renderer->stats().sprites);
+}
+BENCHMARK(DrawThousandWalkers)
+    ->ArgNames({"height", "frame"})
+    ->Args({4, 1})
+    ->Args({16, 720})
+    ->Args({32, 720})
+    ->Args({64, 720})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+#endif
 
 }  // namespace
 }  // namespace vsprite
