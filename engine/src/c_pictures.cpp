@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 the vsprite authors
+// SPDX-License-Identifier: MIT
+//
+// Pictures by the C interface: decoded ones, and drawing without a graphics library.
+#include "c_parts.h"
+#include "vsprite/compose.h"
+#include "vsprite/record.h"
+
+using namespace vsprite;
+using namespace vsprite::c;
+using detail::MemoryScope;
+
+namespace {
+
+constexpr std::uint64_t kDefaultBudget = std::uint64_t{64} << 20;
+constexpr std::uint32_t kMostSide = 16384;
+
+Image plain_image(std::uint32_t width, std::uint32_t height, std::uint32_t colour) {
+  return make_image(static_cast<int>(width), static_cast<int>(height),
+                    static_cast<std::uint8_t>(colour >> 16), static_cast<std::uint8_t>(colour >> 8),
+                    static_cast<std::uint8_t>(colour));
+}
+
+}  // namespace
+
+vsprite_status vsprite_make_frames(vsprite_sprite* sprite, std::uint64_t budget,
+                                   vsprite_frames** frames) {
+  if (frames == nullptr) return bad(__func__, kNoResult);
+  *frames = nullptr;
+  if (!is_open(sprite)) return bad(__func__, kNoSprite);
+  return guarded([&] {
+    const MemoryScope scope(sprite->memory);
+    if (budget == 0) budget = kDefaultBudget;
+    *frames = new vsprite_frames(sprite, static_cast<std::size_t>(budget));
+    sprite->users.fetch_add(1, std::memory_order_relaxed);
+    return VSPRITE_OK;
+  });
+}
+
+vsprite_status vsprite_close_frames(vsprite_frames** frames) {
+  return close_handle(__func__, frames, [](vsprite_frames* f) {
+    vsprite_sprite* sprite = f->sprite;
+    delete f;
+    leave(sprite);
+  });
+}
+
+vsprite_status vsprite_get_picture(vsprite_frames* frames, std::uint32_t sample,
+                                   vsprite_picture* out) {
+  if (!is_open(frames)) return bad(__func__, kNoFrames);
+  const auto samples = frames->sprite->engine->samples();
+  if (sample >= samples.size()) return bad_index(__func__, "sample", sample, samples.size());
+  std::uint32_t size = 0;
+  if (const vsprite_status wrong = size_of(__func__, out, size)) return wrong;
+  const MemoryScope scope(frames->sprite->memory);
+  const ImageView view = frames->cache.frame(sample);
+  hand_out(vsprite_picture{.struct_size = size,
+                           .width = static_cast<std::uint32_t>(view.width),
+                           .height = static_cast<std::uint32_t>(view.height),
+                           .stride = static_cast<std::uint32_t>(view.stride),
+                           .rgba = view.rgba,
+                           .anchor_x = samples[sample].anchor.x,
+                           .anchor_y = samples[sample].anchor.y},
+           size, out);
+  return VSPRITE_OK;
+}
+
+vsprite_status vsprite_look_ahead(vsprite_frames* frames, const vsprite_actor* theirs) {
+  if (!is_open(frames)) return bad(__func__, kNoFrames);
+  Actor actor;
+  if (const vsprite_status wrong = read_actor(__func__, *frames->sprite->engine, theirs, actor))
+    return wrong;
+  const MemoryScope scope(frames->sprite->memory);
+  frames->cache.look_ahead(actor);
+  return VSPRITE_OK;
+}
+
+vsprite_status vsprite_get_frames_stats(const vsprite_frames* frames, vsprite_frames_stats* out) {
+  if (!is_open(frames)) return bad(__func__, kNoFrames);
+  std::uint32_t size = 0;
+  if (const vsprite_status wrong = size_of(__func__, out, size)) return wrong;
+  const FrameCacheStats& s = frames->cache.stats();
+  hand_out(vsprite_frames_stats{size, s.hits, s.misses, s.ahead, s.damaged, s.bytes}, size, out);
+  return VSPRITE_OK;
+}
+
+vsprite_status vsprite_hit(vsprite_frames* frames, const vsprite_actor* theirs, float x, float y,
+                           float scale, std::int32_t alpha, std::int32_t* is_hit) {
+  if (!is_open(frames)) return bad(__func__, kNoFrames);
+  if (is_hit == nullptr) return bad(__func__, kNoResult);
+  if (!is_finite(x, y, scale) || scale <= 0 || alpha < 0 || alpha > 255)
+    return bad(__func__, kNotFinite);
+  const Sprite& engine = *frames->sprite->engine;
+  Actor actor;
+  if (const vsprite_status wrong = read_actor(__func__, engine, theirs, actor)) return wrong;
+  const MemoryScope scope(frames->sprite->memory);
+  const ImageView picture = frames->cache.frame(actor.sample);
+  *is_hit = hit(engine, actor, picture, {x, y}, scale, static_cast<std::uint8_t>(alpha)) ? 1 : 0;
+  return VSPRITE_OK;
+}
+
+// Drawing without a graphics library.
+
+vsprite_status vsprite_make_canvas(std::uint32_t width, std::uint32_t height, std::uint32_t colour,
+                                   vsprite_canvas** canvas) {
+  if (canvas == nullptr) return bad(__func__, kNoResult);
+  *canvas = nullptr;
+  if (width < 1 || width > kMostSide || height < 1 || height > kMostSide)
+    return bad(__func__, "1 to 16384 px a side are due");
+  return guarded([&] {
+    auto handle = std::make_unique<vsprite_canvas>();
+    handle->image = plain_image(width, height, colour);
+    *canvas = handle.release();
+    return VSPRITE_OK;
+  });
+}
+
+vsprite_status vsprite_close_canvas(vsprite_canvas** canvas) {
+  return close_handle(__func__, canvas, [](vsprite_canvas* c) { delete c; });
+}
+
+vsprite_status vsprite_clear_canvas(vsprite_canvas* canvas, std::uint32_t colour) {
+  if (!is_open(canvas)) return bad(__func__, "an open canvas is due");
+  return guarded([&] {
+    canvas->image = plain_image(static_cast<std::uint32_t>(canvas->image.width),
+                                static_cast<std::uint32_t>(canvas->image.height), colour);
+    return VSPRITE_OK;
+  });
+}
+
+vsprite_status vsprite_draw_actor(vsprite_canvas* canvas, vsprite_frames* frames,
+                                  const vsprite_actor* theirs, float fraction, float scale) {
+  if (!is_open(canvas)) return bad(__func__, "an open canvas is due");
+  if (!is_open(frames)) return bad(__func__, kNoFrames);
+  if (!(fraction >= 0 && fraction <= 1) || !(scale > 0 && scale <= 1000))
+    return bad(__func__, kNotFinite);
+  const Sprite& engine = *frames->sprite->engine;
+  Actor actor;
+  if (const vsprite_status wrong = read_actor(__func__, engine, theirs, actor)) return wrong;
+  const MemoryScope scope(frames->sprite->memory);
+  DrawOptions options;
+  options.scale = scale;
+  draw_sample(canvas->image, frames->cache.frame(actor.sample), engine.samples()[actor.sample],
+              draw_position(engine, actor, fraction), options);
+  return VSPRITE_OK;
+}
+
+vsprite_status vsprite_get_canvas(const vsprite_canvas* canvas, vsprite_picture* out) {
+  if (!is_open(canvas)) return bad(__func__, "an open canvas is due");
+  std::uint32_t size = 0;
+  if (const vsprite_status wrong = size_of(__func__, out, size)) return wrong;
+  const ImageView view = canvas->image;
+  vsprite_picture picture{};
+  picture.width = static_cast<std::uint32_t>(view.width);
+  picture.height = static_cast<std::uint32_t>(view.height);
+  picture.stride = static_cast<std::uint32_t>(view.stride);
+  picture.rgba = view.rgba;
+  hand_out(picture, size, out);
+  return VSPRITE_OK;
+}
+
+vsprite_status vsprite_save_canvas(const vsprite_canvas* canvas, const char* path) {
+  if (!is_open(canvas)) return bad(__func__, "an open canvas is due");
+  if (path == nullptr) return bad(__func__, "a path is due, null was found");
+  return guarded([&]() -> vsprite_status {
+    const Result<void> saved = save_png(path, canvas->image);
+    return saved ? VSPRITE_OK : fail(saved.error());
+  });
+}
