@@ -19,8 +19,6 @@ float ask_clearance(const void* world, Vec2 position) {
   return w->clearance(w->world, position.x, position.y);
 }
 
-bool is_within(std::int32_t within) noexcept { return within >= kNoDeadline && within <= 65535; }
-
 vsprite_box to_c(const Box& b) noexcept { return {b.left, b.top, b.right, b.bottom}; }
 
 vsprite_status check_action(const char* call, const vsprite_sprite* sprite, std::uint32_t action,
@@ -28,7 +26,7 @@ vsprite_status check_action(const char* call, const vsprite_sprite* sprite, std:
   if (!is_open(sprite)) return bad(call, kNoSprite);
   const std::size_t count = sprite->engine->actions().size();
   if (action >= count) return bad_index(call, "action", action, count);
-  return is_within(within) ? VSPRITE_OK : bad(call, "within -1 to 65535 ticks is due");
+  return is_within(within) ? VSPRITE_OK : bad(call, kNotWithin);
 }
 
 }  // namespace
@@ -164,7 +162,7 @@ vsprite_status vsprite_queue(const vsprite_sprite* sprite, vsprite_actor* actor,
 
 vsprite_status vsprite_release(const vsprite_sprite* sprite, vsprite_actor* actor,
                                std::int32_t within) {
-  if (!is_within(within)) return bad(__func__, "within -1 to 65535 ticks is due");
+  if (!is_within(within)) return bad(__func__, kNotWithin);
   return change_actor(__func__, sprite, actor,
                       [&](const Sprite& s, Actor& a) { release(s, a, within); });
 }
@@ -185,7 +183,7 @@ vsprite_status vsprite_follow(const vsprite_sprite* sprite, vsprite_actor* actor
 
 vsprite_status vsprite_own_scaled(const vsprite_sprite* sprite, vsprite_actor* actor, float x,
                                   float y) {
-  if (!(std::fabs(x) <= 16 && std::fabs(y) <= 16)) return bad(__func__, kNotFinite);
+  if (!is_factor(x, y)) return bad(__func__, kNotFinite);
   return change_actor(__func__, sprite, actor, [&](const Sprite&, Actor& a) {
     own_scaled(a, {x, y});
   });

@@ -100,7 +100,7 @@ bool is_kind(std::int32_t kind) noexcept { return kind >= VSPRITE_MODE && kind <
 }  // namespace
 
 vsprite_status vsprite_load_pack(const char* path, vsprite_sprite** sprite) {
-  if (path == nullptr) return bad(__func__, "a path is due, null was found");
+  if (path == nullptr) return bad(__func__, kNoPath);
   vsprite_source source{};
   source.struct_size = sizeof source;
   source.path = path;

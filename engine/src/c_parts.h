@@ -15,9 +15,12 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "memory.h"
 #include "vsprite/c_api.h"
+#include "vsprite/puppet.h"
 #include "vsprite/vsprite.h"
 
 namespace vsprite::c {
@@ -45,7 +48,10 @@ enum class Kind : std::uint32_t {
   Frames = 0x56535032,
   Keys = 0x56535033,
   Hash = 0x56535034,
-  Canvas = 0x56535035
+  Canvas = 0x56535035,
+  Recording = 0x56535036,
+  Replay = 0x56535037,
+  Puppets = 0x56535038
 };
 
 }  // namespace vsprite::c
@@ -84,6 +90,34 @@ struct vsprite_canvas {
   static constexpr vsprite::c::Kind kKind = vsprite::c::Kind::Canvas;
   vsprite::c::Kind kind = kKind;
   vsprite::Image image;
+};
+
+struct vsprite_recording {
+  static constexpr vsprite::c::Kind kKind = vsprite::c::Kind::Recording;
+  vsprite::c::Kind kind = kKind;
+  vsprite_sprite* sprite = nullptr;
+  std::vector<vsprite::Actor> actors;  // room for the caller's
+  vsprite::ReplayRecorder recorder;
+  vsprite_recording(vsprite_sprite* of, std::vector<vsprite::Actor> start)
+      : sprite(of), actors(std::move(start)), recorder(*of->engine, actors) {}
+};
+
+struct vsprite_replay {
+  static constexpr vsprite::c::Kind kKind = vsprite::c::Kind::Replay;
+  vsprite::c::Kind kind = kKind;
+  vsprite_sprite* sprite = nullptr;
+  vsprite::Replay recorded;
+  vsprite::ReplayPlayer player;
+  vsprite_replay(vsprite_sprite* of, vsprite::Replay run)
+      : sprite(of), recorded(std::move(run)), player(*of->engine, recorded) {}
+};
+
+struct vsprite_puppets {
+  static constexpr vsprite::c::Kind kKind = vsprite::c::Kind::Puppets;
+  vsprite::c::Kind kind = kKind;
+  std::vector<vsprite::Puppet> puppets;
+  std::vector<vsprite::PuppetPose> poses;  // of each
+  vsprite::PuppetPainter painter;
 };
 
 namespace vsprite::c {
@@ -165,10 +199,22 @@ inline void copy_actors(Actor* to, const vsprite_actor* from, std::size_t count)
 
 inline constexpr const char* kNoSprite = "an open sprite is due";
 inline constexpr const char* kNoFrames = "open frames are due";
+inline constexpr const char* kNoCanvas = "an open canvas is due";
+inline constexpr const char* kNoPath = "a path is due, null was found";
 inline constexpr const char* kNoActor = "an actor is due, null was found";
 inline constexpr const char* kStrange = "the actor is in a state that this sprite does not know";
 inline constexpr const char* kNotFinite = "a number is not finite, or out of range";
+inline constexpr const char* kNotWithin = "within -1 to 65535 ticks is due";
 inline constexpr const char* kNoResult = "a place for the result is due, null was found";
+
+inline bool is_within(std::int32_t within) noexcept {
+  return within >= kNoDeadline && within <= 65535;
+}
+
+// What the film's motion may be multiplied by.
+inline bool is_factor(float x, float y) noexcept {
+  return std::fabs(x) <= 16 && std::fabs(y) <= 16;
+}
 
 // Positions are fixed point: far out they would overflow.
 inline bool is_playable(const Sprite& sprite, const Actor& actor) noexcept {
@@ -216,6 +262,16 @@ vsprite_status close_handle(const char* call, Handle** handle, const F& destroy)
   destroy(*handle);
   *handle = nullptr;
   return VSPRITE_OK;
+}
+
+// The same for what keeps its sprite.
+template <class Handle>
+vsprite_status close_user(const char* call, Handle** handle) noexcept {
+  return close_handle(call, handle, [](Handle* h) {
+    vsprite_sprite* sprite = h->sprite;
+    delete h;
+    leave(sprite);
+  });
 }
 
 }  // namespace vsprite::c

@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <version>
 
 namespace std {
@@ -18,6 +20,14 @@ namespace std {
 template <class To, class From>
 constexpr To bit_cast(const From& from) noexcept {
   return __builtin_bit_cast(To, from);
+}
+#endif
+
+#ifndef __cpp_lib_smart_ptr_for_overwrite
+/// Arrays alone.
+template <class Array>
+unique_ptr<Array> make_unique_for_overwrite(size_t count) {
+  return unique_ptr<Array>(new remove_extent_t<Array>[count]);
 }
 #endif
 

@@ -6,6 +6,7 @@
 // the commands, 36 bytes each; XXH3-64 of all of it.
 #include "vsprite/replay.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pack_format.h"
@@ -208,23 +209,39 @@ void ReplayRecorder::command(const Sprite& sprite, std::span<Actor> actors, Repl
   replay_.commands.push_back(command);
 }
 
+void ReplayRecorder::reserve(std::size_t more) {
+  auto& commands = replay_.commands;
+  const std::size_t due = commands.size() + more;
+  if (due > commands.capacity()) commands.reserve(std::max(due, 2 * commands.capacity()));
+}
+
 void ReplayRecorder::tick(std::span<const Actor> actors) {
   replay_.hashes.push_back(hash_states(actors));
 }
 
+ReplayPlayer::ReplayPlayer(const Sprite& sprite, const Replay& replay)
+    : sprite_(&sprite), replay_(&replay), actors_(replay.start) {}
+
+std::optional<Divergence> ReplayPlayer::step() {
+  const auto& commands = replay_->commands;
+  for (; next_ < commands.size() && commands[next_].tick == tick_; ++next_)
+    apply(*sprite_, actors_[commands[next_].actor], commands[next_]);
+  vsprite::step(*sprite_, actors_);
+  const std::uint64_t recorded = replay_->hashes[tick_++], found = hash_states(actors_);
+  if (found != recorded) return Divergence{tick_, recorded, found};
+  return std::nullopt;
+}
+
 std::optional<Divergence> run_replay(const Sprite& sprite, const Replay& replay,
                                      std::vector<Actor>& actors, StateHash* hash) {
-  actors = replay.start;
-  std::size_t next = 0;
-  for (std::size_t tick = 0; tick < replay.hashes.size(); ++tick) {
-    for (; next < replay.commands.size() && replay.commands[next].tick == tick; ++next)
-      apply(sprite, actors[replay.commands[next].actor], replay.commands[next]);
-    step(sprite, actors);
-    if (hash != nullptr) hash->add(actors.front());
-    const std::uint64_t found = hash_states(actors);
-    if (found != replay.hashes[tick]) return Divergence{tick + 1, replay.hashes[tick], found};
+  ReplayPlayer player(sprite, replay);
+  std::optional<Divergence> divergence;
+  while (!player.is_at_end() && !divergence) {
+    divergence = player.step();
+    if (hash != nullptr) hash->add(player.actors().front());
   }
-  return std::nullopt;
+  actors.assign(player.actors().begin(), player.actors().end());
+  return divergence;
 }
 
 Result<void> save_replay(const std::string& path, const Replay& replay) {

@@ -17,7 +17,9 @@
 
 #include "support/naive_actions.h"
 #include "support/temp_folder.h"
+#include "support/tiny_puppet.h"
 #include "support/tiny_sprite.h"
+#include "vsprite/puppet.h"
 #include "vsprite/vsprite.h"
 
 namespace vsprite {
@@ -34,6 +36,13 @@ void write_acting_pack(const std::string& path) {
   };
   const Result<void> saved = save_pack(path, data, picture);
   ASSERT_TRUE(saved) << saved.error().message;
+}
+
+template <class T>
+T sized(std::uint32_t size = sizeof(T)) {
+  T value{};
+  value.struct_size = size;
+  return value;
 }
 
 class CApi : public ::testing::Test {
@@ -177,6 +186,222 @@ TEST_F(CApi, StepsManyAsOne) {
   EXPECT_EQ(std::memcmp(many.data(), before.data(), 299 * sizeof many[0]), 0) << "none may move";
 }
 
+// Recordings.
+
+vsprite_command command_of(std::int32_t kind) {
+  auto command = sized<vsprite_command>();
+  command.kind = kind;
+  command.direction = VSPRITE_LEFT_UP;
+  command.within = 4;
+  command.hold = 1;
+  command.x = 2, command.y = -1, command.radius = 9;
+  return command;
+}
+
+// Two actors, one by keys and one by every kind of command; their last states.
+std::array<vsprite_actor, 2> record_two(vsprite_sprite* sprite, const vsprite_keys* keys,
+                                        const std::string& path, int ticks) {
+  std::array<vsprite_actor, 2> actors{};
+  for (std::uint32_t k = 0; k < 2; ++k) vsprite_make_actor(sprite, 9, 9, k, k, &actors[k]);
+  vsprite_recording* recording = nullptr;
+  EXPECT_EQ(vsprite_make_recording(sprite, actors.data(), 2, &recording), VSPRITE_OK);
+  for (int tick = 0; tick < ticks; ++tick) {
+    EXPECT_EQ(vsprite_record_keys(recording, 0, &actors[0], keys), VSPRITE_OK);
+    const vsprite_command command = command_of(tick / 7 % 10);
+    if (tick % 7 == 0) {
+      EXPECT_EQ(vsprite_record_command(recording, 1, &actors[1], &command), VSPRITE_OK)
+          << vsprite_last_error();
+    }
+    EXPECT_EQ(vsprite_step_many(sprite, actors.data(), 2), VSPRITE_OK);
+    EXPECT_EQ(vsprite_record_tick(recording, actors.data(), 2), VSPRITE_OK);
+  }
+  EXPECT_EQ(vsprite_save_recording(recording, path.c_str()), VSPRITE_OK) << vsprite_last_error();
+  EXPECT_EQ(vsprite_close_recording(&recording), VSPRITE_OK);
+  return actors;
+}
+
+TEST_F(CApi, ARecordedRunIsMadeAgainTickByTick) {
+  const std::string path = folder_.file("run.vsr");
+  const auto last = record_two(sprite_, keys_, path, 200);
+  vsprite_replay* replay = nullptr;
+  ASSERT_EQ(vsprite_load_replay(sprite_, path.c_str(), &replay), VSPRITE_OK);
+  auto info = sized<vsprite_replay_info>();
+  ASSERT_EQ(vsprite_get_replay(replay, &info), VSPRITE_OK);
+  EXPECT_EQ(info.same_pack, 1u);
+  EXPECT_EQ(info.ticks, 200u);
+  EXPECT_EQ(info.actors, 2u);
+  std::array<vsprite_actor, 2> now{};
+  for (int run = 0; run < 2; ++run) {
+    ASSERT_EQ(vsprite_start_replay(replay, now.data(), 2), VSPRITE_OK);
+    EXPECT_EQ(now[0].tick, 0u);
+    for (std::uint64_t tick = 0; tick < info.ticks; ++tick)
+      ASSERT_EQ(vsprite_step_replay(replay, now.data(), 2), VSPRITE_OK) << vsprite_last_error();
+    EXPECT_EQ(std::memcmp(now.data(), last.data(), sizeof now), 0);
+    EXPECT_EQ(vsprite_step_replay(replay, now.data(), 2), VSPRITE_BAD_ARGUMENT) << "it has ended";
+  }
+  EXPECT_EQ(vsprite_close_replay(&replay), VSPRITE_OK);
+}
+
+TEST_F(CApi, KeysAreRecordedAsTheEngineRecordsThem) {
+  const Sprite sprite = *load_pack(path_);
+  const KeyScript script = *parse_key_script(kScript, sprite.fps());
+  std::array<Actor, 1> due{make_actor(sprite, {30, 30}, 7)};
+  ReplayRecorder recorder(sprite, due);
+  vsprite_recording* recording = nullptr;
+  ASSERT_EQ(vsprite_make_recording(sprite_, &actor_, 1, &recording), VSPRITE_OK);
+  for (std::uint64_t tick = 0; tick < 150; ++tick) {
+    if (script.at(tick) != due[0].direction)
+      recorder.command(sprite, due, {.direction = script.at(tick)});
+    for (const ReplayCommand& c : commands_at(sprite, script, tick))
+      recorder.command(sprite, due, c);
+    step(sprite, due);
+    recorder.tick(due);
+    ASSERT_EQ(vsprite_record_keys(recording, 0, &actor_, keys_), VSPRITE_OK);
+    ASSERT_EQ(vsprite_step(sprite_, &actor_), VSPRITE_OK);
+    ASSERT_EQ(vsprite_record_tick(recording, &actor_, 1), VSPRITE_OK);
+  }
+  const std::string ours = folder_.file("ours.vsr"), theirs = folder_.file("theirs.vsr");
+  ASSERT_EQ(vsprite_save_recording(recording, ours.c_str()), VSPRITE_OK);
+  ASSERT_TRUE(save_replay(theirs, recorder.replay()));
+  EXPECT_EQ(testing::read_bytes(ours), testing::read_bytes(theirs));
+  auto report = sized<vsprite_replay_report>();
+  ASSERT_EQ(vsprite_run_replay(sprite_, ours.c_str(), &report), VSPRITE_OK);
+  EXPECT_EQ(report.diverged_tick, 0u);
+  EXPECT_EQ(vsprite_close_recording(&recording), VSPRITE_OK);
+}
+
+TEST_F(CApi, SaysWhereARecordedRunGoesAnotherWay) {
+  const std::string path = folder_.file("run.vsr");
+  record_two(sprite_, keys_, path, 40);
+  const Sprite sprite = *load_pack(path_);
+  Replay other = *load_replay(path, sprite);
+  other.hashes[29] ^= 1;
+  ASSERT_TRUE(save_replay(path, other));
+  vsprite_replay* replay = nullptr;
+  ASSERT_EQ(vsprite_load_replay(sprite_, path.c_str(), &replay), VSPRITE_OK);
+  std::array<vsprite_actor, 2> now{};
+  for (int tick = 1; tick <= 40; ++tick) {
+    const vsprite_status status = vsprite_step_replay(replay, now.data(), 2);
+    EXPECT_EQ(status, tick == 30 ? VSPRITE_BAD_CONTENT : VSPRITE_OK) << "tick " << tick;
+  }
+  EXPECT_NE(std::string(vsprite_last_error()).find("after tick 30 "), std::string::npos);
+  EXPECT_EQ(vsprite_close_replay(&replay), VSPRITE_OK);
+}
+
+// Showing.
+
+TEST_F(CApi, ShowsWhatTheEngineShowsAndFades) {
+  const Sprite sprite = *load_pack(path_);
+  FrameCache frames(sprite);
+  ActorFade due;
+  vsprite_fade fade;
+  ASSERT_EQ(vsprite_start_fade(&fade), VSPRITE_OK);
+  auto shown = sized<vsprite_shown>(), fading = shown;
+  int faded = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    vsprite_set_direction(sprite_, &actor_, tick / 9 % 8);
+    ASSERT_EQ(vsprite_step(sprite_, &actor_), VSPRITE_OK);
+    ASSERT_EQ(vsprite_follow_jumps(sprite_, &actor_, &fade, 4), VSPRITE_OK);
+    Actor actor;
+    std::memcpy(static_cast<void*>(&actor), &actor_, sizeof actor);
+    follow(sprite, actor, due, 4);
+    ASSERT_EQ(std::memcmp(&due, &fade, sizeof due), 0) << "tick " << tick;
+    ASSERT_EQ(vsprite_show(frames_, &actor_, &fade, 0.25f, &shown, &fading), VSPRITE_OK);
+    const ActorPicture picture = actor_picture(sprite, frames, actor, 0.25f);
+    ASSERT_EQ(shown.sample, picture.sample);
+    ASSERT_EQ(shown.left, picture.top_left.x);
+    ASSERT_EQ(shown.top, picture.top_left.y);
+    ASSERT_EQ(shown.opacity, 1);
+    ASSERT_EQ(shown.stride, static_cast<std::uint32_t>(picture.pixels.stride));
+    ASSERT_EQ(std::memcmp(shown.rgba, picture.pixels.rgba, shown.stride * shown.height), 0);
+    ASSERT_EQ(fading.opacity, fade_share(due, 0.25f));
+    ASSERT_EQ(fading.width > 0, fading.opacity > 0);
+    if (fading.width == 0) continue;
+    ++faded;
+    Image before;
+    ASSERT_TRUE(sprite.decode_frame(due.before, before));
+    ASSERT_EQ(fading.sample, due.before);
+    ASSERT_EQ(std::memcmp(fading.rgba, before.rgba.data(), before.rgba.size()), 0);
+  }
+  EXPECT_GT(faded, 10);
+  EXPECT_EQ(vsprite_show(frames_, &actor_, nullptr, 0, &shown, nullptr), VSPRITE_OK);
+}
+
+TEST_F(CApi, AClearCanvasHoldsThePremultipliedPicture) {
+  ASSERT_EQ(vsprite_clear_canvas(canvas_, VSPRITE_CLEAR), VSPRITE_OK);
+  auto picture = sized<vsprite_picture>();
+  ASSERT_EQ(vsprite_get_canvas(canvas_, &picture), VSPRITE_OK);
+  for (std::uint32_t k = 0; k < 4 * picture.width; ++k) ASSERT_EQ(picture.rgba[k], 0);
+  ASSERT_EQ(vsprite_draw_actor(canvas_, frames_, &actor_, 0, 1), VSPRITE_OK);
+  const std::string file = folder_.file("clear.png");
+  ASSERT_EQ(vsprite_save_canvas(canvas_, file.c_str()), VSPRITE_OK);
+  Image due = *read_png(file);
+  premultiply(due);
+  ASSERT_EQ(vsprite_get_canvas(canvas_, &picture), VSPRITE_OK);
+  int covered = 0;
+  for (std::size_t k = 0; k < due.rgba.size(); ++k) {
+    EXPECT_NEAR(due.rgba[k], picture.rgba[k], 1) << k;
+    covered += due.rgba[k] > 0;
+  }
+  EXPECT_GT(covered, 100);
+}
+
+// Puppets.
+
+TEST_F(CApi, PosesAndDrawsThePuppetsOfAPack) {
+  const std::string path = folder_.file("puppets.vsp");
+  std::vector<Puppet> made;
+  made.push_back(testing::glass_puppet());
+  made[0].name = "glass";
+  made.push_back(
+      testing::still_puppet(testing::speckles(24), {{0, 0}, {24, 0}, {0, 24}}, {{{0, 1, 2}, 3}}));
+  ASSERT_TRUE(save_puppets(path_, path, made));
+  vsprite_puppets* puppets = nullptr;
+  ASSERT_EQ(vsprite_load_puppets(path.c_str(), &puppets), VSPRITE_OK) << vsprite_last_error();
+  std::uint32_t count = 0, still = 9;
+  ASSERT_EQ(vsprite_count_puppets(puppets, &count), VSPRITE_OK);
+  EXPECT_EQ(count, 2u);
+  ASSERT_EQ(vsprite_find_puppet(puppets, "still", &still), VSPRITE_OK);
+  EXPECT_EQ(still, 1u);
+  auto info = sized<vsprite_puppet_info>();
+  ASSERT_EQ(vsprite_get_puppet(puppets, still, &info), VSPRITE_OK);
+  EXPECT_STREQ(info.name, "still");
+  EXPECT_EQ(info.points, 3u);
+  EXPECT_EQ(info.parameters, 1u);
+  auto parameter = sized<vsprite_parameter>();
+  ASSERT_EQ(vsprite_get_parameter(puppets, still, 0, &parameter), VSPRITE_OK);
+  EXPECT_STREQ(parameter.name, "t");
+  EXPECT_EQ(parameter.high, 1);
+  const double value = 0.5;
+  auto pose = sized<vsprite_pose>();
+  ASSERT_EQ(vsprite_pose_puppet(puppets, still, &value, 1, &pose), VSPRITE_OK);
+  EXPECT_EQ(pose.points, 3u);
+  EXPECT_EQ(pose.xy[2], 24);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    Image due = make_image(96, 64, 0x20, 0x40, 0x60);
+    PuppetPainter painter;
+    render_puppet(made[k], testing::posed(made[k], value), painter, due, {5, 6}, 1.5f);
+    ASSERT_EQ(vsprite_clear_canvas(canvas_, 0x204060), VSPRITE_OK);
+    ASSERT_EQ(vsprite_draw_puppet(canvas_, puppets, k, &value, 1, 5, 6, 1.5f), VSPRITE_OK);
+    auto picture = sized<vsprite_picture>();
+    ASSERT_EQ(vsprite_get_canvas(canvas_, &picture), VSPRITE_OK);
+    EXPECT_EQ(std::memcmp(picture.rgba, due.rgba.data(), due.rgba.size()), 0) << "puppet " << k;
+  }
+  EXPECT_EQ(vsprite_close_puppets(&puppets), VSPRITE_OK);
+  ASSERT_EQ(vsprite_load_puppets(path_.c_str(), &puppets), VSPRITE_OK) << "a pack without any";
+  ASSERT_EQ(vsprite_count_puppets(puppets, &count), VSPRITE_OK);
+  EXPECT_EQ(count, 0u);
+  EXPECT_EQ(vsprite_close_puppets(&puppets), VSPRITE_OK);
+}
+
+TEST_F(CApi, ReachesAsTheEngineDoes) {
+  const ArmReach due = reach_for({1, 2}, {9, 5}, 6, 5, -1);
+  double shoulder = 0, elbow = 0;
+  ASSERT_EQ(vsprite_reach_for(1, 2, 9, 5, 6, 5, -1, &shoulder, &elbow), VSPRITE_OK);
+  EXPECT_EQ(shoulder, due.shoulder);
+  EXPECT_EQ(elbow, due.elbow);
+}
+
 // Reading and memory of the caller's.
 
 struct Shelf {
@@ -282,9 +507,16 @@ vsprite_status use_all(const vsprite_source& from, Pool& pool) {
     vsprite_look_ahead(frames, &actor);
     status = vsprite_get_picture(frames, actor.sample, &picture);
   }
+  vsprite_recording* recording = nullptr;
+  if (status == VSPRITE_OK) status = vsprite_make_recording(sprite, &actor, 1, &recording);
+  for (int t = 0; t < 9 && status == VSPRITE_OK; ++t) {
+    status = vsprite_record_keys(recording, 0, &actor, keys);
+    if (status == VSPRITE_OK) status = vsprite_record_tick(recording, &actor, 1);
+  }
   vsprite_close_sprite(&sprite);
   vsprite_close_keys(&keys);
   vsprite_close_frames(&frames);
+  vsprite_close_recording(&recording);
   return status;
 }
 
@@ -348,13 +580,6 @@ struct Wrong {
   vsprite_status found;
 };
 
-template <class T>
-T sized(std::uint32_t size = sizeof(T)) {
-  T value{};
-  value.struct_size = size;
-  return value;
-}
-
 TEST_F(CApi, EveryWrongArgumentHasItsCode) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInf = std::numeric_limits<float>::infinity();
@@ -379,6 +604,49 @@ TEST_F(CApi, EveryWrongArgumentHasItsCode) {
   vsprite_frames* f2 = nullptr;
   vsprite_keys* k2 = nullptr;
   vsprite_canvas* c2 = nullptr;
+  vsprite_recording *recording = nullptr, *r2 = nullptr;
+  vsprite_replay *replay = nullptr, *p2 = nullptr;
+  vsprite_puppets *puppets = nullptr, *u2 = nullptr;
+  vsprite_keys* other_keys = nullptr;
+  const std::string run = folder_.file("run.vsr"), drawn = folder_.file("drawn.vsp");
+  record_two(sprite_, keys_, run, 3);
+  ASSERT_TRUE(save_puppets(path_, drawn, std::array{testing::glass_puppet()}));
+  ASSERT_EQ(vsprite_make_recording(sprite_, &actor_, 1, &recording), VSPRITE_OK);
+  ASSERT_EQ(vsprite_load_replay(sprite_, run.c_str(), &replay), VSPRITE_OK);
+  ASSERT_EQ(vsprite_load_puppets(drawn.c_str(), &puppets), VSPRITE_OK);
+  ASSERT_EQ(vsprite_load_pack(path_.c_str(), &out), VSPRITE_OK);
+  ASSERT_EQ(vsprite_load_keys(out, "0 right", &other_keys), VSPRITE_OK);
+  ASSERT_EQ(vsprite_close_sprite(&out), VSPRITE_OK);
+  auto* no_recording = reinterpret_cast<vsprite_recording*>(replay);
+  auto* no_replay = reinterpret_cast<vsprite_replay*>(recording);
+  auto* no_puppets = reinterpret_cast<vsprite_puppets*>(canvas_);
+  std::array<vsprite_actor, 2> two_actors{actor_, actor_};
+  const auto shape = command_of(VSPRITE_DO_DIRECTION);
+  auto no_kind = shape, no_direction = shape, bad_action = command_of(VSPRITE_DO_PLAY);
+  auto bad_within = command_of(VSPRITE_DO_RELEASE), bad_radius = command_of(VSPRITE_DO_TARGET);
+  auto bad_heading = command_of(VSPRITE_DO_HEADING), bad_factor = command_of(VSPRITE_DO_SCALED);
+  auto late_play = command_of(VSPRITE_DO_PLAY), small_command = shape;
+  no_kind.kind = 10;
+  no_direction.direction = 10;
+  bad_action.action = 77;
+  bad_within.within = 65536;
+  bad_radius.radius = -1;
+  bad_heading.x = kNaN;
+  bad_factor.y = 17;
+  late_play.within = -2;
+  small_command.struct_size = 4;
+  auto run_info = sized<vsprite_replay_info>(), small_run = sized<vsprite_replay_info>(4);
+  auto shown = sized<vsprite_shown>(), small_shown = sized<vsprite_shown>(4);
+  auto puppet = sized<vsprite_puppet_info>(), small_puppet = sized<vsprite_puppet_info>(4);
+  auto parameter = sized<vsprite_parameter>(), small_parameter = sized<vsprite_parameter>(4);
+  auto pose = sized<vsprite_pose>(), small_pose = sized<vsprite_pose>(4);
+  vsprite_fade fade{}, no_fade{};
+  vsprite_start_fade(&fade);
+  no_fade.before = 0xFFFFFFFE;
+  vsprite_fade ended = fade;  // a length that no fade has
+  ended.before = 1, ended.length = 200;
+  const double half_way = 0.5, no_number = kNaN;
+  double angle = 0;
   auto info = sized<vsprite_info>(), small_info = sized<vsprite_info>(8);
   auto sample = sized<vsprite_sample>(), no_sample = sized<vsprite_sample>(0);
   auto picture = sized<vsprite_picture>(), huge = sized<vsprite_picture>(0xFFFFFFFF);
@@ -564,6 +832,122 @@ TEST_F(CApi, EveryWrongArgumentHasItsCode) {
       WRONG(vsprite_run_replay, "result", kBad, sprite_, path_.c_str(), nullptr),
       WRONG(vsprite_run_replay, "size", kBad, sprite_, path_.c_str(), &small_report),
       WRONG(vsprite_run_replay, "a pack", VSPRITE_BAD_FORMAT, sprite_, path_.c_str(), &report),
+      WRONG(vsprite_start_fade, "result", kBad, nullptr),
+      WRONG(vsprite_follow_jumps, "sprite", kBad, closed, &a, &fade, 2),
+      WRONG(vsprite_follow_jumps, "actor", kBad, sprite_, nullptr, &fade, 2),
+      WRONG(vsprite_follow_jumps, "state", kBad, sprite_, &strange, &fade, 2),
+      WRONG(vsprite_follow_jumps, "fade", kBad, sprite_, &a, nullptr, 2),
+      WRONG(vsprite_follow_jumps, "fade's state", kBad, sprite_, &a, &no_fade, 2),
+      WRONG(vsprite_follow_jumps, "fade's length", kBad, sprite_, &a, &ended, 2),
+      WRONG(vsprite_follow_jumps, "ticks", kBad, sprite_, &a, &fade, 1),
+      WRONG(vsprite_follow_jumps, "ticks", kBad, sprite_, &a, &fade, 7),
+      WRONG(vsprite_follow_jumps, "ticks", kBad, sprite_, &a, &fade, -2),
+      WRONG(vsprite_show, "frames", kBad, no_frames, &a, nullptr, 0, &shown, nullptr),
+      WRONG(vsprite_show, "actor", kBad, frames_, nullptr, nullptr, 0, &shown, nullptr),
+      WRONG(vsprite_show, "state", kBad, frames_, &strange, nullptr, 0, &shown, nullptr),
+      WRONG(vsprite_show, "fraction", kBad, frames_, &a, nullptr, kNaN, &shown, nullptr),
+      WRONG(vsprite_show, "result", kBad, frames_, &a, nullptr, 0, nullptr, nullptr),
+      WRONG(vsprite_show, "size", kBad, frames_, &a, nullptr, 0, &small_shown, nullptr),
+      WRONG(vsprite_show, "no fade", kBad, frames_, &a, nullptr, 0, &shown, &shown),
+      WRONG(vsprite_show, "no fading", kBad, frames_, &a, &fade, 0, &shown, nullptr),
+      WRONG(vsprite_show, "fading's size", kBad, frames_, &a, &fade, 0, &shown, &small_shown),
+      WRONG(vsprite_show, "fade's state", kBad, frames_, &a, &no_fade, 0, &shown, &shown),
+      WRONG(vsprite_make_recording, "sprite", kBad, closed, &a, 1, &r2),
+      WRONG(vsprite_make_recording, "actors", kBad, sprite_, nullptr, 1, &r2),
+      WRONG(vsprite_make_recording, "state", kBad, sprite_, &strange, 1, &r2),
+      WRONG(vsprite_make_recording, "none", kBad, sprite_, &a, 0, &r2),
+      WRONG(vsprite_make_recording, "too many", kBad, sprite_, &a, std::size_t(-1), &r2),
+      WRONG(vsprite_make_recording, "result", kBad, sprite_, &a, 1, nullptr),
+      WRONG(vsprite_close_recording, "null", kBad, nullptr),
+      WRONG(vsprite_close_recording, "kind", kBad, &no_recording),
+      WRONG(vsprite_record_command, "recording", kBad, no_recording, 0, &a, &shape),
+      WRONG(vsprite_record_command, "index", kBad, recording, 1, &a, &shape),
+      WRONG(vsprite_record_command, "actor", kBad, recording, 0, nullptr, &shape),
+      WRONG(vsprite_record_command, "state", kBad, recording, 0, &strange, &shape),
+      WRONG(vsprite_record_command, "command", kBad, recording, 0, &a, nullptr),
+      WRONG(vsprite_record_command, "size", kBad, recording, 0, &a, &small_command),
+      WRONG(vsprite_record_command, "kind", kBad, recording, 0, &a, &no_kind),
+      WRONG(vsprite_record_command, "direction", kBad, recording, 0, &a, &no_direction),
+      WRONG(vsprite_record_command, "action", kBad, recording, 0, &a, &bad_action),
+      WRONG(vsprite_record_command, "deadline", kBad, recording, 0, &a, &late_play),
+      WRONG(vsprite_record_command, "within", kBad, recording, 0, &a, &bad_within),
+      WRONG(vsprite_record_command, "radius", kBad, recording, 0, &a, &bad_radius),
+      WRONG(vsprite_record_command, "number", kBad, recording, 0, &a, &bad_heading),
+      WRONG(vsprite_record_command, "factor", kBad, recording, 0, &a, &bad_factor),
+      WRONG(vsprite_record_keys, "recording", kBad, nullptr, 0, &a, keys_),
+      WRONG(vsprite_record_keys, "index", kBad, recording, 1, &a, keys_),
+      WRONG(vsprite_record_keys, "actor", kBad, recording, 0, nullptr, keys_),
+      WRONG(vsprite_record_keys, "state", kBad, recording, 0, &strange, keys_),
+      WRONG(vsprite_record_keys, "keys", kBad, recording, 0, &a, no_keys),
+      WRONG(vsprite_record_keys, "other keys", kBad, recording, 0, &a, other_keys),
+      WRONG(vsprite_record_tick, "recording", kBad, no_recording, &a, 1),
+      WRONG(vsprite_record_tick, "actors", kBad, recording, nullptr, 1),
+      WRONG(vsprite_record_tick, "count", kBad, recording, two_actors.data(), 2),
+      WRONG(vsprite_record_tick, "state", kBad, recording, &strange, 1),
+      WRONG(vsprite_save_recording, "recording", kBad, no_recording, "x.vsr"),
+      WRONG(vsprite_save_recording, "path", kBad, recording, nullptr),
+      WRONG(vsprite_save_recording, "folder", VSPRITE_CANNOT_CREATE, recording, no_folder.c_str()),
+      WRONG(vsprite_load_replay, "sprite", kBad, closed, run.c_str(), &p2),
+      WRONG(vsprite_load_replay, "path", kBad, sprite_, nullptr, &p2),
+      WRONG(vsprite_load_replay, "result", kBad, sprite_, run.c_str(), nullptr),
+      WRONG(vsprite_load_replay, "missing", VSPRITE_NOT_FOUND, sprite_, missing.c_str(), &p2),
+      WRONG(vsprite_load_replay, "a pack", VSPRITE_BAD_FORMAT, sprite_, path_.c_str(), &p2),
+      WRONG(vsprite_close_replay, "null", kBad, nullptr),
+      WRONG(vsprite_close_replay, "kind", kBad, &no_replay),
+      WRONG(vsprite_get_replay, "replay", kBad, no_replay, &run_info),
+      WRONG(vsprite_get_replay, "result", kBad, replay, nullptr),
+      WRONG(vsprite_get_replay, "size", kBad, replay, &small_run),
+      WRONG(vsprite_start_replay, "replay", kBad, no_replay, two_actors.data(), 2),
+      WRONG(vsprite_start_replay, "actors", kBad, replay, nullptr, 2),
+      WRONG(vsprite_start_replay, "count", kBad, replay, two_actors.data(), 1),
+      WRONG(vsprite_step_replay, "replay", kBad, nullptr, two_actors.data(), 2),
+      WRONG(vsprite_step_replay, "actors", kBad, replay, nullptr, 2),
+      WRONG(vsprite_step_replay, "count", kBad, replay, two_actors.data(), 3),
+      WRONG(vsprite_load_puppets, "path", kBad, nullptr, &u2),
+      WRONG(vsprite_load_puppets, "result", kBad, drawn.c_str(), nullptr),
+      WRONG(vsprite_load_puppets, "missing", VSPRITE_NOT_FOUND, missing.c_str(), &u2),
+      WRONG(vsprite_load_puppets, "text", VSPRITE_BAD_FORMAT, text.c_str(), &u2),
+      WRONG(vsprite_close_puppets, "null", kBad, nullptr),
+      WRONG(vsprite_close_puppets, "kind", kBad, &no_puppets),
+      WRONG(vsprite_count_puppets, "puppets", kBad, no_puppets, &n),
+      WRONG(vsprite_count_puppets, "result", kBad, puppets, nullptr),
+      WRONG(vsprite_find_puppet, "puppets", kBad, nullptr, "still", &n),
+      WRONG(vsprite_find_puppet, "name", kBad, puppets, nullptr, &n),
+      WRONG(vsprite_find_puppet, "result", kBad, puppets, "still", nullptr),
+      WRONG(vsprite_find_puppet, "unknown", VSPRITE_NOT_FOUND, puppets, "ghost", &n),
+      WRONG(vsprite_get_puppet, "puppets", kBad, no_puppets, 0, &puppet),
+      WRONG(vsprite_get_puppet, "index", kBad, puppets, 1, &puppet),
+      WRONG(vsprite_get_puppet, "result", kBad, puppets, 0, nullptr),
+      WRONG(vsprite_get_puppet, "size", kBad, puppets, 0, &small_puppet),
+      WRONG(vsprite_get_parameter, "puppets", kBad, no_puppets, 0, 0, &parameter),
+      WRONG(vsprite_get_parameter, "index", kBad, puppets, 1, 0, &parameter),
+      WRONG(vsprite_get_parameter, "parameter", kBad, puppets, 0, 1, &parameter),
+      WRONG(vsprite_get_parameter, "result", kBad, puppets, 0, 0, nullptr),
+      WRONG(vsprite_get_parameter, "size", kBad, puppets, 0, 0, &small_parameter),
+      WRONG(vsprite_pose_puppet, "puppets", kBad, no_puppets, 0, &half_way, 1, &pose),
+      WRONG(vsprite_pose_puppet, "index", kBad, puppets, 1, &half_way, 1, &pose),
+      WRONG(vsprite_pose_puppet, "values", kBad, puppets, 0, nullptr, 1, &pose),
+      WRONG(vsprite_pose_puppet, "count", kBad, puppets, 0, &half_way, 2, &pose),
+      WRONG(vsprite_pose_puppet, "number", kBad, puppets, 0, &no_number, 1, &pose),
+      WRONG(vsprite_pose_puppet, "result", kBad, puppets, 0, &half_way, 1, nullptr),
+      WRONG(vsprite_pose_puppet, "size", kBad, puppets, 0, &half_way, 1, &small_pose),
+      WRONG(vsprite_draw_puppet, "canvas", kBad, no_canvas, puppets, 0, &half_way, 1, 0, 0, 1),
+      WRONG(vsprite_draw_puppet, "puppets", kBad, canvas_, no_puppets, 0, &half_way, 1, 0, 0, 1),
+      WRONG(vsprite_draw_puppet, "index", kBad, canvas_, puppets, 1, &half_way, 1, 0, 0, 1),
+      WRONG(vsprite_draw_puppet, "values", kBad, canvas_, puppets, 0, nullptr, 1, 0, 0, 1),
+      WRONG(vsprite_draw_puppet, "count", kBad, canvas_, puppets, 0, &half_way, 0, 0, 0, 1),
+      WRONG(vsprite_draw_puppet, "number", kBad, canvas_, puppets, 0, &no_number, 1, 0, 0, 1),
+      WRONG(vsprite_draw_puppet, "place", kBad, canvas_, puppets, 0, &half_way, 1, kInf, 0, 1),
+      WRONG(vsprite_draw_puppet, "scale", kBad, canvas_, puppets, 0, &half_way, 1, 0, 0, 0),
+      WRONG(vsprite_reach_for, "place", kBad, 0, kNaN, 1, 1, 1, 1, 1, &angle, &angle),
+      WRONG(vsprite_reach_for, "target", kBad, 0, 0, 1, kInf, 1, 1, 1, &angle, &angle),
+      WRONG(vsprite_reach_for, "upper", kBad, 0, 0, 1, 1, 0, 1, 1, &angle, &angle),
+      WRONG(vsprite_reach_for, "lower", kBad, 0, 0, 1, 1, 1, kNaN, 1, &angle, &angle),
+      WRONG(vsprite_reach_for, "bend", kBad, 0, 0, 1, 1, 1, 1, 0, &angle, &angle),
+      WRONG(vsprite_reach_for, "result", kBad, 0, 0, 1, 1, 1, 1, 1, nullptr, &angle),
+      WRONG(vsprite_reach_for, "result", kBad, 0, 0, 1, 1, 1, 1, 1, &angle, nullptr),
+      WRONG(vsprite_make_canvas, "colour", kBad, 1, 1, 0xFF9CC4D8, &c2),
+      WRONG(vsprite_clear_canvas, "colour", kBad, canvas_, 0x1000001),
       WRONG(vsprite_make_canvas, "width", kBad, 0, 1, 0, &c2),
       WRONG(vsprite_make_canvas, "height", kBad, 1, 16385, 0, &c2),
       WRONG(vsprite_make_canvas, "result", kBad, 1, 1, 0, nullptr),
@@ -597,7 +981,11 @@ TEST_F(CApi, EveryWrongArgumentHasItsCode) {
     ++calls;
     EXPECT_TRUE(tried.count((*at)[1]) == 1) << (*at)[1] << " is not tried";
   }
-  EXPECT_GT(calls, 40);
+  EXPECT_GT(calls, 70);
+  EXPECT_EQ(vsprite_close_recording(&recording), VSPRITE_OK);
+  EXPECT_EQ(vsprite_close_replay(&replay), VSPRITE_OK);
+  EXPECT_EQ(vsprite_close_puppets(&puppets), VSPRITE_OK);
+  EXPECT_EQ(vsprite_close_keys(&other_keys), VSPRITE_OK);
 }
 
 TEST_F(CApi, BytesFromAStrangerAreRefusedOrPlayed) {

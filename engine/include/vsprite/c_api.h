@@ -22,8 +22,8 @@
 
    Handles are made by load and make calls, which write them through their last argument (null if
    they fail), and end by close calls, which take the address of your variable and set it to null. A
-   second copy of a closed handle is not detectable in general. Frames, keys and canvases keep the
-   sprite that they were made with; it may be closed before them.
+   second copy of a closed handle is not detectable in general. Frames, keys, recordings and replays
+   keep the sprite that they were made with; it may be closed before them.
 
    Sized structs. Set `struct_size` to sizeof the struct before each call. A smaller one, of an
    older header, is read as far as it goes. A larger one, of a later header, is taken if what this
@@ -87,14 +87,34 @@ enum {
   VSPRITE_REST = 9
 };
 
+/* A canvas's colour beside 0xRRGGBB: none, alpha 0. */
+enum { VSPRITE_CLEAR = 0x1000000 };
+
+/* What is done to an actor, for a recording. */
+enum {
+  VSPRITE_DO_DIRECTION = 0, /* vsprite_set_direction(direction) */
+  VSPRITE_DO_HEADING = 1,   /* vsprite_set_heading(x, y) */
+  VSPRITE_DO_TARGET = 2,    /* vsprite_set_target(x, y, radius) */
+  VSPRITE_DO_PLAY = 3,      /* vsprite_play(action, within, hold) */
+  VSPRITE_DO_QUEUE = 4,     /* vsprite_queue(action, hold) */
+  VSPRITE_DO_RELEASE = 5,   /* vsprite_release(within) */
+  VSPRITE_DO_CANCEL = 6,    /* vsprite_cancel() */
+  VSPRITE_DO_FOLLOW = 7,    /* vsprite_follow(x, y) */
+  VSPRITE_DO_SCALED = 8,    /* vsprite_own_scaled(x, y) */
+  VSPRITE_DO_RECORDED = 9   /* vsprite_own_recorded() */
+};
+
 /* What a sprite has names of. */
 enum { VSPRITE_MODE = 0, VSPRITE_ACTION = 1, VSPRITE_EVENT = 2, VSPRITE_TAG = 3 };
 
-typedef struct vsprite_sprite vsprite_sprite; /* a loaded pack; never changes */
-typedef struct vsprite_frames vsprite_frames; /* decoded pictures within a budget */
-typedef struct vsprite_keys vsprite_keys;     /* a key script */
-typedef struct vsprite_hash vsprite_hash;     /* a running hash of states */
-typedef struct vsprite_canvas vsprite_canvas; /* a picture to draw on */
+typedef struct vsprite_sprite vsprite_sprite;       /* a loaded pack; never changes */
+typedef struct vsprite_frames vsprite_frames;       /* decoded pictures within a budget */
+typedef struct vsprite_keys vsprite_keys;           /* a key script */
+typedef struct vsprite_hash vsprite_hash;           /* a running hash of states */
+typedef struct vsprite_canvas vsprite_canvas;       /* a picture to draw on */
+typedef struct vsprite_recording vsprite_recording; /* a run that is being recorded */
+typedef struct vsprite_replay vsprite_replay;       /* a recorded run that is made again */
+typedef struct vsprite_puppets vsprite_puppets;     /* the puppets of a pack */
 
 /* One character: 64 plain bytes. Copy them to save it, copy them back to roll back, send them; what
    comes from a file or a network is checked by vsprite_check_actor (and by every call). Read what
@@ -205,6 +225,41 @@ typedef struct vsprite_box {
   float left, top, right, bottom; /* px */
 } vsprite_box;
 
+/* What still shows of the run before a jump (show.h): plain bytes beside the actor, which decide
+   nothing. Copy them with it. */
+typedef struct vsprite_fade {
+  uint32_t shown, before; /* sample; 0xFFFFFFFF: none */
+  uint16_t held;          /* ticks that `before` has been shown */
+  uint8_t length, passed; /* ticks */
+} vsprite_fade;
+
+/* A picture and where it goes, for a renderer of your own. */
+typedef struct vsprite_shown {
+  uint32_t struct_size;
+  uint32_t sample;        /* names the picture, for a cache of textures */
+  uint32_t width, height; /* 0: there is nothing to draw */
+  uint32_t stride;        /* bytes from row to row */
+  const uint8_t* rgba;    /* premultiplied; until the next call with these frames */
+  float left, top;        /* where its corner goes, px, not rounded */
+  float opacity;          /* 0 to 1 */
+} vsprite_shown;
+
+/* Only what its `kind` takes is read. */
+typedef struct vsprite_command {
+  uint32_t struct_size;
+  int32_t kind; /* VSPRITE_DO_... */
+  int32_t direction;
+  uint32_t action;
+  int32_t within, hold;
+  float x, y, radius;
+} vsprite_command;
+
+typedef struct vsprite_replay_info {
+  uint32_t struct_size;
+  uint32_t same_pack; /* 1: it was recorded with these very bytes */
+  uint64_t ticks, actors;
+} vsprite_replay_info;
+
 typedef struct vsprite_replay_report {
   uint32_t struct_size;
   uint32_t same_pack; /* 1: it was recorded with these very bytes */
@@ -212,6 +267,28 @@ typedef struct vsprite_replay_report {
   uint64_t diverged_tick; /* 0: every tick came out as recorded */
   uint64_t states_hash;   /* of the first actor */
 } vsprite_replay_report;
+
+/* Names live as long as the puppets. */
+typedef struct vsprite_puppet_info {
+  uint32_t struct_size;
+  uint32_t parameters, points, faces, views, links;
+  const char* name;
+} vsprite_puppet_info;
+
+typedef struct vsprite_parameter {
+  uint32_t struct_size;
+  const char* name;
+  double low, high; /* what the examples span; beyond it the nearest is drawn */
+  double period;    /* of a cyclic one, else 0 */
+} vsprite_parameter;
+
+typedef struct vsprite_pose {
+  uint32_t struct_size;
+  uint32_t points;
+  const float* xy;          /* x and y of each about the barycentre, px; until the next pose */
+  float center_x, center_y; /* where the barycentre is by itself, px */
+  double outside;           /* how far the parameters lay outside the examples' hull */
+} vsprite_pose;
 
 /* -- the library -- */
 VSPRITE_API uint32_t vsprite_version(void); /* 0x000100 is 0.1.0 */
@@ -307,6 +384,19 @@ VSPRITE_API vsprite_status vsprite_drawn_box(const vsprite_sprite* sprite,
 VSPRITE_API vsprite_status vsprite_hit(vsprite_frames* frames, const vsprite_actor* actor, float x,
                                        float y, float scale, int32_t alpha, int32_t* is_hit);
 
+/* -- showing (show.h): premultiplied pixels and their place, for a renderer of your own -- */
+VSPRITE_API vsprite_status vsprite_start_fade(vsprite_fade* fade); /* nothing fades */
+/* After every step. `ticks` of a fade: 0 none, 2 to 6, or -1: by what the jump costs. */
+VSPRITE_API vsprite_status vsprite_follow_jumps(const vsprite_sprite* sprite,
+                                                const vsprite_actor* actor, vsprite_fade* fade,
+                                                int32_t ticks);
+/* The actor's picture, `fraction` in [0, 1] of a tick after its last step, and the one that fades
+   out, to be drawn over it with its opacity. Has the next ones decoded ahead. `fade` and `fading`,
+   or both null. */
+VSPRITE_API vsprite_status vsprite_show(vsprite_frames* frames, const vsprite_actor* actor,
+                                        const vsprite_fade* fade, float fraction,
+                                        vsprite_shown* shown, vsprite_shown* fading);
+
 /* -- key scripts (input.h): "0 right; 2.5 right+up; 3 play jump 4", or the name of a file -- */
 VSPRITE_API vsprite_status vsprite_load_keys(vsprite_sprite* sprite, const char* script,
                                              vsprite_keys** keys);
@@ -327,7 +417,40 @@ VSPRITE_API vsprite_status vsprite_hash_actors(const vsprite_actor* actors, size
 VSPRITE_API vsprite_status vsprite_run_replay(const vsprite_sprite* sprite, const char* path,
                                               vsprite_replay_report* report);
 
-/* -- drawing without a graphics library (compose.h), 1 to 16384 px a side; colour 0xRRGGBB -- */
+/* -- recordings (replay.h): of `count` actors, from what they are now -- */
+VSPRITE_API vsprite_status vsprite_make_recording(vsprite_sprite* sprite,
+                                                  const vsprite_actor* actors, size_t count,
+                                                  vsprite_recording** recording);
+VSPRITE_API vsprite_status vsprite_close_recording(vsprite_recording** recording);
+/* Does it to the actor, the recording's number `index`, and notes it. */
+VSPRITE_API vsprite_status vsprite_record_command(vsprite_recording* recording, uint32_t index,
+                                                  vsprite_actor* actor,
+                                                  const vsprite_command* command);
+/* What vsprite_apply_keys does, noted. The keys are of the recording's sprite. */
+VSPRITE_API vsprite_status vsprite_record_keys(vsprite_recording* recording, uint32_t index,
+                                               vsprite_actor* actor, const vsprite_keys* keys);
+/* After every step of all of them. */
+VSPRITE_API vsprite_status vsprite_record_tick(vsprite_recording* recording,
+                                               const vsprite_actor* actors, size_t count);
+/* Writes what was recorded so far (.vsr); the file appears complete, or not at all. */
+VSPRITE_API vsprite_status vsprite_save_recording(const vsprite_recording* recording,
+                                                  const char* path);
+/* A recording, made again tick by tick. The codes of load_replay (replay.h). */
+VSPRITE_API vsprite_status vsprite_load_replay(vsprite_sprite* sprite, const char* path,
+                                               vsprite_replay** replay);
+VSPRITE_API vsprite_status vsprite_close_replay(vsprite_replay** replay);
+VSPRITE_API vsprite_status vsprite_get_replay(const vsprite_replay* replay,
+                                              vsprite_replay_info* info);
+/* Back to its start; `actors` gets all of them. */
+VSPRITE_API vsprite_status vsprite_start_replay(vsprite_replay* replay, vsprite_actor* actors,
+                                                size_t count);
+/* One tick. VSPRITE_BAD_CONTENT where it is not what was recorded, `actors` being what was found;
+   VSPRITE_BAD_ARGUMENT after its last tick. */
+VSPRITE_API vsprite_status vsprite_step_replay(vsprite_replay* replay, vsprite_actor* actors,
+                                               size_t count);
+
+/* -- drawing without a graphics library (compose.h), 1 to 16384 px a side; colour 0xRRGGBB or
+   VSPRITE_CLEAR -- */
 VSPRITE_API vsprite_status vsprite_make_canvas(uint32_t width, uint32_t height, uint32_t colour,
                                                vsprite_canvas** canvas);
 VSPRITE_API vsprite_status vsprite_close_canvas(vsprite_canvas** canvas);
@@ -339,6 +462,32 @@ VSPRITE_API vsprite_status vsprite_draw_actor(vsprite_canvas* canvas, vsprite_fr
 VSPRITE_API vsprite_status vsprite_get_canvas(const vsprite_canvas* canvas,
                                               vsprite_picture* picture);
 VSPRITE_API vsprite_status vsprite_save_canvas(const vsprite_canvas* canvas, const char* path);
+
+/* -- puppets (puppet.h): characters made of a few views, moved by their parameters. None in the
+   pack is no error. The codes of load_puppets -- */
+VSPRITE_API vsprite_status vsprite_load_puppets(const char* path, vsprite_puppets** puppets);
+VSPRITE_API vsprite_status vsprite_close_puppets(vsprite_puppets** puppets);
+VSPRITE_API vsprite_status vsprite_count_puppets(const vsprite_puppets* puppets, uint32_t* count);
+VSPRITE_API vsprite_status vsprite_find_puppet(const vsprite_puppets* puppets, const char* name,
+                                               uint32_t* puppet);
+VSPRITE_API vsprite_status vsprite_get_puppet(const vsprite_puppets* puppets, uint32_t puppet,
+                                              vsprite_puppet_info* info);
+VSPRITE_API vsprite_status vsprite_get_parameter(const vsprite_puppets* puppets, uint32_t puppet,
+                                                 uint32_t parameter, vsprite_parameter* out);
+/* `values`: one for each of its parameters, `count` of them. */
+VSPRITE_API vsprite_status vsprite_pose_puppet(vsprite_puppets* puppets, uint32_t puppet,
+                                               const double* values, uint32_t count,
+                                               vsprite_pose* pose);
+/* Poses it and draws it with its barycentre at (x, y), `scale` times as large. A canvas that was
+   VSPRITE_CLEAR then holds the premultiplied picture (vsprite_get_canvas). */
+VSPRITE_API vsprite_status vsprite_draw_puppet(vsprite_canvas* canvas, vsprite_puppets* puppets,
+                                               uint32_t puppet, const double* values,
+                                               uint32_t count, float x, float y, float scale);
+/* The angles, radians clockwise from +x, of an arm of two links that reaches for the target: of the
+   upper one, and of the lower one from the upper; `bend` > 0 or < 0 says which way it bends. */
+VSPRITE_API vsprite_status vsprite_reach_for(float shoulder_x, float shoulder_y, float target_x,
+                                             float target_y, double upper, double lower,
+                                             int32_t bend, double* shoulder, double* elbow);
 
 /* end of the declarations */
 #ifdef __cplusplus

@@ -82,6 +82,8 @@ class ReplayRecorder {
   ReplayRecorder(const Sprite& sprite, std::span<const Actor> start);
   /// Does the command and notes it.
   void command(const Sprite& sprite, std::span<Actor> actors, ReplayCommand command);
+  /// Makes room for so many more commands, which then throw no std::bad_alloc.
+  void reserve(std::size_t more);
   /// Call it after every step of all actors.
   void tick(std::span<const Actor> actors);
   const Replay& replay() const noexcept { return replay_; }
@@ -94,6 +96,22 @@ class ReplayRecorder {
 struct Divergence {
   std::uint64_t tick = 0;
   std::uint64_t recorded = 0, found = 0;  ///< hashes
+};
+/// A recorded run that is made again, tick by tick. Borrows sprite and replay.
+class ReplayPlayer {
+ public:
+  ReplayPlayer(const Sprite& sprite, const Replay& replay);
+  bool is_at_end() const noexcept { return tick_ == replay_->hashes.size(); }
+  std::uint64_t tick() const noexcept { return tick_; }  ///< ticks made so far
+  std::span<const Actor> actors() const noexcept { return actors_; }
+  /// One tick; where it is not what was recorded. Pre: !is_at_end().
+  std::optional<Divergence> step();
+
+ private:
+  const Sprite* sprite_;
+  const Replay* replay_;
+  std::vector<Actor> actors_;
+  std::size_t tick_ = 0, next_ = 0;  // next_: of the commands
 };
 /// Makes the run again, until its end or the first tick that differs. `actors` gets the states
 /// there. `hash`, may be null: gets the states of actor 0.
