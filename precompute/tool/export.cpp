@@ -4,7 +4,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -32,10 +31,6 @@ Json pages_json(const Atlas& atlas) {
   return pages;
 }
 
-Json report(const ExportJob& job, std::size_t pages) {
-  return {{"samples", job.choice.from.size()}, {"pages", pages}, {"folder", job.output}};
-}
-
 Result<Json> write_table(const ExportJob& job) {
   const auto atlas = arrange_atlas(job.choice.data.name, job.choice.data.samples);
   if (!atlas) return atlas.error();
@@ -47,7 +42,7 @@ Result<Json> write_table(const ExportJob& job) {
   Json document = character_json(job.choice.data, places);
   document["pages"] = pages_json(*atlas);
   if (auto wrote = write_json(job, "character.json", document); !wrote) return wrote.error();
-  return report(job, atlas->pages.size());
+  return export_report(job, job.choice.from.size(), atlas->pages.size());
 }
 
 Result<Json> write_png_sequence(const ExportJob& job) {
@@ -64,7 +59,7 @@ Result<Json> write_png_sequence(const ExportJob& job) {
   }
   const Json document = character_json(job.choice.data, places);
   if (auto wrote = write_json(job, "character.json", document); !wrote) return wrote.error();
-  return report(job, 0);
+  return export_report(job, count, 0);
 }
 
 std::string megabytes(double bytes) {
@@ -203,6 +198,18 @@ Result<const ExportFormat*> find_export_format(const std::string& name) {
                    (near.empty() ? ": " + export_names() : ": did you mean `" + near + "`?")};
 }
 
+double fps_of(const SpriteData& data) {
+  return static_cast<double>(data.fps_numerator) / data.fps_denominator;
+}
+
+Json export_report(const ExportJob& job, std::size_t samples, std::optional<std::size_t> pages) {
+  Json report{{"samples", samples}};
+  if (pages) report["pages"] = *pages;
+  for (const PlayedRun& run : job.runs) report["runs"].push_back(run.name);
+  report["folder"] = job.output;
+  return report;
+}
+
 Result<void> write_json(const ExportJob& job, const std::string& name, const Json& document) {
   return write_file((fs::path(job.output) / name).string(),
                     document.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n");
@@ -211,9 +218,6 @@ Result<void> write_json(const ExportJob& job, const std::string& name, const Jso
 Result<SampleChoice> choose_for_export(const Sprite& sprite, int limit, std::uint64_t seed,
                                        int jobs) {
   SpriteData data = sprite.data();
-  const auto kept = [](const Sample& s) { return s.kept == 1; };
-  if (std::none_of(data.samples.begin(), data.samples.end(), kept))
-    return Error{ErrorCode::BadContent, data.name + ": no samples of a film are in it"};
   for (ControlMode& mode : data.modes) mode.plays_through = false;
   ChoiceConfig config{.seed = seed, .jobs = jobs};
   config.limit = limit > 0 ? limit : static_cast<double>(data.samples.size());
@@ -231,7 +235,7 @@ Json character_json(const SpriteData& data, const std::vector<Json>& places) {
   Json out = {{"format", "vsprite-table"},
               {"version", 1},
               {"name", data.name},
-              {"fps", static_cast<double>(data.fps_numerator) / data.fps_denominator},
+              {"fps", fps_of(data)},
               {"unit", 65536},
               {"body_length", data.body_length},
               {"tags", data.tags},

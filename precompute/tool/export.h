@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -54,7 +55,7 @@ Result<const ExportFormat*> find_export_format(const std::string& name);
 
 /// The samples of a pack, at most `limit` (0: all that are kept), solved again. Play-through is
 /// left out of the tables: a plain table cannot make up for the sample that it leaves out.
-/// Errors: BadContent (a pack without pictures of a film), those of choose_samples().
+/// Errors: BadContent (a pack that was not made from a film), those of choose_samples().
 Result<SampleChoice> choose_for_export(const Sprite& sprite, int limit, std::uint64_t seed,
                                        int jobs);
 
@@ -72,6 +73,11 @@ Result<Json> write_gifs(const ExportJob& job);
 Result<Json> write_webms(const ExportJob& job);
 Result<Json> write_ffv1s(const ExportJob& job);
 
+/// Ticks a second.
+double fps_of(const SpriteData& data);
+/// What was written, for --json: the runs' names where there are any, the folder.
+Json export_report(const ExportJob& job, std::size_t samples,
+                   std::optional<std::size_t> pages = std::nullopt);
 /// Writes a JSON document into the job's folder. Errors: those of write_file.
 Result<void> write_json(const ExportJob& job, const std::string& name, const Json& document);
 

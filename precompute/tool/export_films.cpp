@@ -15,10 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double fps_of(const SpriteData& data) {
-  return static_cast<double>(data.fps_numerator) / data.fps_denominator;
-}
-
 Result<void> write_run(const ExportJob& job, const PlayedRun& run, const Canvas& canvas,
                        const std::string& path) {
   FilmWriter film;
@@ -55,14 +51,13 @@ Json run_json(const SpriteData& data, const PlayedRun& run, const std::string& f
 Result<Json> write_films(const ExportJob& job, const char* ending) {
   const SpriteData& data = job.choice.data;
   const Canvas canvas = canvas_of(data, job.runs);
-  Json runs = Json::array(), names = Json::array();
+  Json runs = Json::array();
   std::size_t done = 0, frames = 0;
   for (const PlayedRun& run : job.runs) {
     const std::string file = run.name + ending;
     if (auto wrote = write_run(job, run, canvas, (fs::path(job.output) / file).string()); !wrote)
       return wrote.error();
     runs.push_back(run_json(data, run, file));
-    names.push_back(run.name);
     frames += run.samples.size();
     if (job.progress)
       job.progress(static_cast<double>(++done) / static_cast<double>(job.runs.size()));
@@ -78,7 +73,7 @@ Result<Json> write_films(const ExportJob& job, const char* ending) {
                       {"body_length", data.body_length},
                       {"runs", std::move(runs)}};
   if (auto wrote = write_json(job, "runs.json", document); !wrote) return wrote.error();
-  return Json{{"samples", frames}, {"runs", names}, {"folder", job.output}};
+  return export_report(job, frames);
 }
 
 }  // namespace

@@ -146,10 +146,6 @@ Json meta_json(const AtlasPage& page, std::size_t number) {
           {"scale", "1"}};
 }
 
-double fps_of(const SpriteData& data) {
-  return static_cast<double>(data.fps_numerator) / data.fps_denominator;
-}
-
 // Whole milliseconds, whose sum keeps in step with the ticks.
 class Milliseconds {
  public:
@@ -169,15 +165,10 @@ std::string page_json_name(std::size_t number) {
   return "page-" + std::to_string(number) + ".json";
 }
 
-Json report(const ExportJob& job, std::size_t samples, std::size_t pages) {
-  Json runs = Json::array();
-  for (const PlayedRun& run : job.runs) runs.push_back(run.name);
-  return {{"samples", samples}, {"pages", pages}, {"runs", runs}, {"folder", job.output}};
-}
-
-Json aseprite_json(const ExportJob& job, const Sheet& sheet, const AtlasPage& page,
-                   std::size_t number, const Canvas& canvas) {
+Json aseprite_json(const ExportJob& job, const Sheets& all, std::size_t number,
+                   const Canvas& canvas) {
   const SpriteData& data = job.choice.data;
+  const Sheet& sheet = all.sheets[number];
   Json frames = Json::array(), tags = Json::array();
   for (const PlayedRun& run : sheet.runs) {
     Milliseconds time(fps_of(data));
@@ -200,7 +191,7 @@ Json aseprite_json(const ExportJob& job, const Sheet& sheet, const AtlasPage& pa
     if (run.seam) tag["data"] = "seam " + std::to_string(*run.seam);
     tags.push_back(std::move(tag));
   }
-  Json meta = meta_json(page, number);
+  Json meta = meta_json(all.atlas.pages[number], number);
   meta["frameTags"] = std::move(tags);
   meta["layers"] = {{{"name", data.name}, {"opacity", 255}, {"blendMode", "normal"}}};
   meta["slices"] = {{{"name", "anchor"},
@@ -362,34 +353,26 @@ std::size_t shown_count(const Sheets& sheets) {
   return static_cast<std::size_t>(std::unique(all.begin(), all.end()) - all.begin());
 }
 
-}  // namespace
-
-Result<Json> write_aseprite(const ExportJob& job) {
+// Pages, each with its description.
+Result<Json> write_sheets(const ExportJob& job, Json (*page_json)(const ExportJob&, const Sheets&,
+                                                                  std::size_t, const Canvas&)) {
   const auto sheets = deal_out(job);
   if (!sheets) return sheets.error();
   if (auto wrote = write_atlas(job.film, sheets->from, sheets->atlas, job.output, job.progress);
       !wrote)
     return wrote.error();
   const Canvas canvas = canvas_of(job.choice.data, job.runs);
-  for (std::size_t p = 0; p < sheets->sheets.size(); ++p) {
-    const Json page = aseprite_json(job, sheets->sheets[p], sheets->atlas.pages[p], p, canvas);
-    if (auto wrote = write_json(job, page_json_name(p), page); !wrote) return wrote.error();
-  }
-  return report(job, shown_count(*sheets), sheets->sheets.size());
+  for (std::size_t p = 0; p < sheets->sheets.size(); ++p)
+    if (auto wrote = write_json(job, page_json_name(p), page_json(job, *sheets, p, canvas)); !wrote)
+      return wrote.error();
+  return export_report(job, shown_count(*sheets), sheets->sheets.size());
 }
 
+}  // namespace
+
+Result<Json> write_aseprite(const ExportJob& job) { return write_sheets(job, aseprite_json); }
 Result<Json> write_texture_packer(const ExportJob& job) {
-  const auto sheets = deal_out(job);
-  if (!sheets) return sheets.error();
-  if (auto wrote = write_atlas(job.film, sheets->from, sheets->atlas, job.output, job.progress);
-      !wrote)
-    return wrote.error();
-  const Canvas canvas = canvas_of(job.choice.data, job.runs);
-  for (std::size_t p = 0; p < sheets->sheets.size(); ++p) {
-    const Json page = texture_packer_json(job, *sheets, p, canvas);
-    if (auto wrote = write_json(job, page_json_name(p), page); !wrote) return wrote.error();
-  }
-  return report(job, shown_count(*sheets), sheets->sheets.size());
+  return write_sheets(job, texture_packer_json);
 }
 
 Result<Json> write_godot(const ExportJob& job) {
@@ -403,7 +386,7 @@ Result<Json> write_godot(const ExportJob& job) {
   const std::string text = GodotText(job, *atlas, samples).write();
   if (auto wrote = write_file((fs::path(job.output) / "character.tres").string(), text); !wrote)
     return wrote.error();
-  return report(job, samples.size(), atlas->pages.size());
+  return export_report(job, samples.size(), atlas->pages.size());
 }
 
 }  // namespace vsprite

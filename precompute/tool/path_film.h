@@ -35,8 +35,8 @@ struct Backdrop {
 /// of more than 1.5 GB of frames).
 Result<Backdrop> read_backdrop(const std::string& path);
 
-/// Writes `path`: .mp4 (H.264), .mkv (FFV1, with alpha where there is no backdrop), or pictures
-/// frame-00000.png ... into a folder, where `path` ends in `/` or is one. What was begun and not
+/// Writes `path`: a film (vsprite/record.h; with alpha, but for .mp4, where there is no backdrop),
+/// or pictures frame-00000.png ... into a folder, where `path` ends in `/` or is one. What was begun and not
 /// finished is removed. `backdrop`: of the picture's size; empty: a plain ground (clear where the
 /// format has alpha). Sprites are drawn from the one highest in the picture to the lowest.
 /// `go_on` is asked before every frame; may be empty.

@@ -39,6 +39,24 @@ for file in character.json page-0.png; do [ -s folder/$file ] || fail "no $file"
 expect 0 vsprite export ring.vsp --to png-seq; prints "ring-png-seq: "
 [ -s ring-png-seq/sample-000000.png ] || fail "no pictures"
 
+# The pages in LÖVE, steered by the player in Lua: the pictures that `png-seq` wrote.
+if command -v love >/dev/null && command -v ffmpeg >/dev/null; then
+  cp -r folder love && cp "$here/export_love.lua" love/main.lua
+  cp "$here/../../assets/players/vsprite.lua" love/player.lua
+  expect 0 vsprite export ring.vsp --to png-seq --samples 0 -o all
+  expect 0 env -u DISPLAY -u WAYLAND_DISPLAY SDL_VIDEODRIVER=offscreen XDG_DATA_HOME="$room/saved" timeout 100 love love
+  pixels() { ffmpeg -v error -i "$1" -pix_fmt rgba -f md5 -; }
+  shown=0
+  for picture in $(find saved -name 'sample-*.png'); do
+    [ "$(pixels "$picture")" = "$(pixels "all/${picture##*/}")" ] || fail "LÖVE shows another ${picture##*/}"
+    shown=$((shown + 1))
+  done
+  [ $shown -ge 20 ] || fail "LÖVE shows $shown pictures"
+  echo "$shown pictures in LÖVE are the pack's"
+else
+  echo "skipped: no love or ffmpeg here, the table is not played in LÖVE"
+fi
+
 # A page within a budget: samples are left out, what stays is a pack.
 whole=$(stat -c %s ring.vsp); budget=$(awk "BEGIN { print 0.8 * $whole * 4 / 3 / 1e6 }")
 expect 0 vsprite export ring.vsp --to html --template page.in --budget "$budget" -o small.html --json

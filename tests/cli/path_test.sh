@@ -21,13 +21,20 @@ expect 0 path corner.txt --beam 500 -o pictures/
 [ "$(ls pictures/frame-*.png | wc -l)" -gt 10 ] || fail "no pictures"
 expect 0 path corner.txt --beam 500 --backdrop pictures/frame-00000.png -o backed.mp4
 [ "$(ffprobe -v error -show_entries stream=pix_fmt -of csv=p=0 clear.mkv)" = bgra ] || fail "no alpha"
+ticks=$(($(wc -l <a.csv) - 1))
+for ending in webm apng gif; do
+  expect 0 path corner.txt --beam 2000 -o film.$ending
+  frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 film.$ending)
+  [ "$frames" = "$ticks" ] || fail "film.$ending: $frames frames, $ticks are due"
+done
+[ "$(ffprobe -v error -show_entries stream_tags=alpha_mode -of csv=p=0 film.webm)" = 1 ] || fail "webm without alpha"
 [ "$(ffprobe -v error -show_entries stream=codec_name -of csv=p=0 film.mp4)" = h264 ] || fail "no H.264"
 
 expect 2 vsprite path ring.vsp; says "--script FILE is due"; one_sentence
 expect 2 vsprite path --script corner.txt; one_sentence
 expect 66 path absent.txt; one_sentence
 expect 66 vsprite path absent.vsp --script corner.txt
-expect 2 path corner.txt -o film.gif; says ".mp4, .mkv"; one_sentence
+expect 2 path corner.txt -o film.avi; says ".mp4, .mkv, .webm, .apng or .gif"; one_sentence
 expect 2 path corner.txt --size 100; says "WxH"; one_sentence
 expect 2 path corner.txt --beam 0
 expect 73 path corner.txt --beam 500 -o absent/film.mp4; one_sentence

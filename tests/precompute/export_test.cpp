@@ -225,6 +225,16 @@ TEST(ExportFormats, AWrongNameIsAnsweredWithTheNearest) {
   EXPECT_NE(format.error().message.find("`table`"), std::string::npos);
 }
 
+TEST_F(Export, ThereIsNoSpriteWithoutSamplesToExport) {
+  SpriteData data = testing::tiny_sprite_data();
+  for (Sample& s : data.samples) s.kept = 0;
+  const auto none_kept = make_sprite(data);
+  ASSERT_FALSE(none_kept);
+  EXPECT_NE(none_kept.error().message.find("is not a kept sample"), std::string::npos);
+  data.samples.clear();
+  EXPECT_FALSE(make_sprite(data));
+}
+
 TEST_F(Export, AFolderThatIsNotThereCannotBeWritten) {
   const auto wrote = (*find_export_format("table"))->write(job(room_.file("absent/folder")));
   ASSERT_FALSE(wrote);

@@ -21,12 +21,13 @@ Result<void> check_output(const std::string& path) {
   std::error_code error;
   if (path.empty() || path.back() == '/' || fs::is_directory(path, error)) return {};
   const std::string ending = fs::path(path).extension().string();
-  if (ending == ".mp4" || ending == ".mkv" || ending == ".json" || ending == ".vsp") return {};
+  for (const char* known : {".mp4", ".mkv", ".webm", ".apng", ".gif", ".json", ".vsp"})
+    if (ending == known) return {};
   return Error{
       ErrorCode::BadSetting,
       "-o " + path +
-          ": a name in .mp4, .mkv (with alpha), .json or .vsp (the pack, with the run in it) is "
-          "due, or a folder for PNG pictures, ending in `/`"};
+          ": a name in .mp4, .mkv, .webm, .apng or .gif (those four with alpha), .json or .vsp "
+          "(the pack, with the run in it) is due, or a folder for PNG pictures, ending in `/`"};
 }
 
 Result<void> write_outputs(const Settings& settings, const Sprite& sprite, const Clip& clip,
