@@ -28,7 +28,8 @@ using Rebuilt = Result<std::optional<Sprite>>;
 Rebuilt check_and_load(const std::string& path, const std::atomic<bool>& stops) {
   const auto source = detail::ByteSource::open(path);
   if (!source) return source.error();
-  auto issues = verify_pack({.bytes = source->size(),
+  auto issues =
+      verify_pack(PackReader{.bytes = source->size(),
                              .name = path,
                              .read = [&](std::uint64_t offset, std::span<std::uint8_t> out) {
                                return !stops && source->read(offset, out);

@@ -5,7 +5,7 @@
 // steered by its own key and touch events, held against the tool's states.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
-import {statSync} from "node:fs";
+import {readFileSync, statSync} from "node:fs";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {Browser, sleep} from "./browser.mjs";
@@ -41,15 +41,23 @@ async function result(browser) {
   return {ticks: Number(ticks), states, keys: second.slice("keys ".length)};
 }
 
+async function headless(page, keys, frames, seed) {
+  const words = ["--headless", "--keys", keys, "--frames", String(frames), "--seed", String(seed)];
+  await visit(page, {}, "#" + words.map(encodeURIComponent).join("&"), async browser => {
+    const {ticks, states} = await result(browser);
+    assert.equal(ticks, frames);
+    assert.equal(states, steered(keys, frames, seed));
+  });
+}
+
 const tests = {
   async "a key script gives the tool's states"(page) {
     const keys = "0 right; 1.5 right+up; 2.4 none; 3 left; 4.2 down";
-    const words = ["--headless", "--keys", keys, "--frames", "150", "--seed", "7"];
-    await visit(page, {}, "#" + words.map(encodeURIComponent).join("&"), async browser => {
-      const {ticks, states} = await result(browser);
-      assert.equal(ticks, 150);
-      assert.equal(states, steered(keys, 150, 7));
-    });
+    await headless(page, keys, 150, 7);
+  },
+
+  async "and the run of every other door"(page) {  // tests/games/door_test.sh
+    await headless(page, readFileSync(new URL("../games/door.keys", import.meta.url), "utf8"), 240, 0);
   },
 
   async "arrow keys and W A S D steer it, and the tool comes to the same states"(page) {
