@@ -16,7 +16,7 @@ ExternalProject_Add(web
     -DVSPRITE_PRECOMPUTE=OFF -DVSPRITE_TESTS=OFF -DVSPRITE_SHARED=OFF -DVSPRITE_INSTALL=OFF
     -DVSPRITE_PNG=OFF -DVSPRITE_SIMD=OFF -DVSPRITE_THREADS=OFF
   BUILD_COMMAND ${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs
-    ${CMAKE_COMMAND} --build <BINARY_DIR> --target player aquarium
+    ${CMAKE_COMMAND} --build <BINARY_DIR> --target player aquarium hello
   BUILD_ALWAYS ON INSTALL_COMMAND "" USES_TERMINAL_BUILD ON)
 install(FILES ${CMAKE_BINARY_DIR}/share/vsprite/player.html
   ${CMAKE_BINARY_DIR}/share/vsprite/aquarium.html DESTINATION share/vsprite COMPONENT tools)

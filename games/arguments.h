@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "vsprite/exit_code.h"
 #include "vsprite/reload.h"
@@ -119,9 +120,11 @@ inline std::optional<Sprite> take_rebuilt(PackWatch& watch, const char* name, do
   return std::move(*rebuilt);
 }
 
-/// The whole of a game's main: parses, plays, says what went wrong.
+/// The whole of a game's main: parses, plays, says what went wrong. `play` is a lambda: a page
+/// cannot wait for its next frame in what is called by a pointer (engine/page.cmake).
 template <class Play>
 int run(int argc, char** argv, const char* name, const std::string& default_pack, Play play) {
+  static_assert(!std::is_pointer_v<Play>);
   const Result<Arguments> arguments = parse_arguments(argc, argv, default_pack);
   if (arguments && arguments->help) {
     std::printf(kUsage, name, default_pack.c_str());

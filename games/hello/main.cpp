@@ -61,5 +61,6 @@ Result<void> run_hello(const games::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return games::run(argc, argv, "hello", "build/goldfish.vsp", run_hello);
+  return games::run(argc, argv, "hello", "build/goldfish.vsp",
+                    [](const games::Arguments& arguments) { return run_hello(arguments); });
 }

@@ -75,7 +75,9 @@ Result<void> run(const games::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const int code = vsprite::games::run(argc, argv, "hello_sdl", "build/goldfish.vsp", run);
+  const int code =
+      vsprite::games::run(argc, argv, "hello_sdl", "build/goldfish.vsp",
+                          [](const games::Arguments& arguments) { return run(arguments); });
   SDL_Quit();
   return code;
 }

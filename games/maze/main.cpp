@@ -163,5 +163,6 @@ Result<void> run_maze(const games::Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return games::run(argc, argv, "maze", "build/goldfish.vsp", run_maze);
+  return games::run(argc, argv, "maze", "build/goldfish.vsp",
+                    [](const games::Arguments& arguments) { return run_maze(arguments); });
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// page_test.mjs TOOL TINY_PACK AQUARIUM_PAGE FOLDER: pages opened as files in a headless Chromium,
+// page_test.mjs TOOL TINY_PACK TEMPLATES FOLDER: pages opened as files in a headless Chromium,
 // steered by its own key and touch events, held against the tool's states.
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
@@ -10,7 +10,7 @@ import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {Browser, sleep} from "./browser.mjs";
 
-const [tool, pack, aquarium, folder] = process.argv.slice(2);
+const [tool, pack, templates, folder] = process.argv.slice(2);
 const kSeconds = 60;  // a machine without a graphics card, and busy
 
 function exported(name, ...words) {
@@ -107,8 +107,23 @@ const tests = {
     });
   },
 
+  async "a game's own sources are a page: hello"() {
+    const page = exported("hello.html", "--template", join(templates, "hello.html"));
+    await visit(page, {width: 640, height: 360}, "", async browser => {
+      await browser.until("window.vsprite && vsprite.frames > 3", kSeconds);
+      await browser.key("keyDown", "ArrowDown");
+      await sleep(1000);
+      await browser.screenshot(join(folder, "hello.png"));
+      await browser.key("keyUp", "ArrowDown");
+      await browser.key("keyDown", "Escape");
+      await browser.until("vsprite.ended", kSeconds);
+      assert.deepEqual(await browser.evaluate("vsprite.errors.filter(line => line.includes('error'))"), []);
+    });
+    console.log(`  ${(statSync(page).size / 1e6).toFixed(2)} MB`);
+  },
+
   async "the aquarium is one page"() {
-    const page = exported("aquarium.html", "--template", aquarium);
+    const page = exported("aquarium.html", "--template", join(templates, "aquarium.html"));
     await visit(page, {width: 800, height: 450}, "#--quality&low", async browser => {
       await browser.until("window.vsprite && vsprite.frames > 3", kSeconds);
       await browser.key("keyDown", "ArrowRight");
