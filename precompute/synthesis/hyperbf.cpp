@@ -94,20 +94,35 @@ State moved(const Examples& examples, const RbfConfig& config, const State& from
   return out;
 }
 
+// One step of 1 in every coordinate: of a centre, in units of its parameter that |d|_W measures 1;
+// of an entry of W, the size of its column. Parameters may have any unit.
+Eigen::VectorXd step_units(const RbfNetwork& net) {
+  const auto dims = static_cast<std::size_t>(net.dims);
+  std::vector<double> column(dims, 0);
+  for (std::size_t i = 0; i < net.metric.size(); ++i)
+    column[i % dims] = std::hypot(column[i % dims], net.metric[i]);
+  Eigen::VectorXd out(static_cast<Eigen::Index>(net.centers.size() + net.metric.size()));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(out.size()); ++i) {
+    const double size = std::max(column[i % dims], 1e-12);
+    out(static_cast<Eigen::Index>(i)) = i < net.centers.size() ? 1 / size : size;
+  }
+  return out;
+}
+
 // Down the gradient, with a step of its own for every coordinate that grows while the slope keeps
 // its sign and halves when it turns (Rprop, Riedmiller & Braun 1993): t and W differ in scale.
 State descend(const Examples& examples, const HyperConfig& config, State state) {
   State best = state;
   const Eigen::Index size =
       static_cast<Eigen::Index>(state.net.centers.size() + state.net.metric.size());
-  Eigen::VectorXd reach = Eigen::VectorXd::Constant(size, 0.02),
-                  before = Eigen::VectorXd::Zero(size);
+  const Eigen::VectorXd unit = step_units(state.net);
+  Eigen::VectorXd reach = 0.02 * unit, before = Eigen::VectorXd::Zero(size);
   for (int k = 0; k < config.steps; ++k) {
     Eigen::VectorXd slope = gradient(examples, state), step(size);
     for (Eigen::Index i = 0; i < size; ++i) {
       const double turn = slope(i) * before(i);
-      if (turn > 0) reach(i) = std::min(0.5, 1.2 * reach(i));
-      if (turn < 0) reach(i) = std::max(1e-9, 0.5 * reach(i)), slope(i) = 0;
+      if (turn > 0) reach(i) = std::min(0.5 * unit(i), 1.2 * reach(i));
+      if (turn < 0) reach(i) = std::max(1e-9 * unit(i), 0.5 * reach(i)), slope(i) = 0;
       step(i) = slope(i) > 0 ? -reach(i) : slope(i) < 0 ? reach(i) : 0;
     }
     before = slope;
@@ -126,13 +141,14 @@ double bell(Random& random) {
 
 State wander(const Examples& examples, const HyperConfig& config, State state) {
   Random random{config.seed};
+  const Eigen::VectorXd unit = step_units(state.net);
   State best = state;
   double reach = 0.3;
   const Eigen::Index size =
       static_cast<Eigen::Index>(state.net.centers.size() + state.net.metric.size());
   for (int k = 0; k < config.steps; ++k) {
     Eigen::VectorXd step(size);
-    for (Eigen::Index i = 0; i < size; ++i) step(i) = reach * bell(random);
+    for (Eigen::Index i = 0; i < size; ++i) step(i) = reach * unit(i) * bell(random);
     const State next = moved(examples, config.rbf, state, step);
     const double left = 1 - static_cast<double>(k) / config.steps;
     const double heat = config.temperature * left * left * best.error;
