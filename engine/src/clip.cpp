@@ -127,7 +127,8 @@ Result<void> save_clips(const std::string& from, const std::string& to,
     if (!source) return source.error();
     detail::Bytes bytes;
     if (!clips.empty()) bytes = detail::clip_bytes(clips);
-    return detail::copy_with_section(*source, to, "CLIP", bytes.data);
+    const PackExtra section{"CLIP", std::move(bytes.data)};
+    return detail::copy_with_sections(*source, to, {&section, 1});
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, to + ": out of memory while writing clips"};
   }

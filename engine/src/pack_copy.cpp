@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "pack_copy.h"
 
+#include <algorithm>
+
 namespace vsprite::detail {
 namespace {
 
@@ -43,16 +45,20 @@ Result<std::vector<std::uint8_t>> read_section(const ByteSource& source,
   return bytes;
 }
 
-Result<void> copy_with_section(const ByteSource& source, const std::string& to,
-                               const std::string& name, std::span<const std::uint8_t> bytes) {
+Result<void> copy_with_sections(const ByteSource& source, const std::string& to,
+                                std::span<const PackExtra> given) {
   auto content = read_table(source);
   if (!content) return content.error();
   auto file = FileWriter::create(to);
   if (!file) return file.error();
   std::vector<SectionEntry> sections;
   for (const SectionEntry& entry : content->sections)
-    if (entry.name != name) sections.push_back(entry);
-  std::uint64_t end = kHeaderBytes + (sections.size() + !bytes.empty()) * kEntryBytes;
+    if (std::none_of(given.begin(), given.end(),
+                     [&](const PackExtra& extra) { return extra.name == entry.name; }))
+      sections.push_back(entry);
+  std::size_t count = sections.size();
+  for (const PackExtra& extra : given) count += !extra.bytes.empty();
+  std::uint64_t end = kHeaderBytes + count * kEntryBytes;
   // The gaps between sections are zeros: a hole in a new file reads as such.
   const auto place = [&end](std::uint64_t size) {
     const std::uint64_t at = (end + kAlignment - 1) / kAlignment * kAlignment;
@@ -64,10 +70,11 @@ Result<void> copy_with_section(const ByteSource& source, const std::string& to,
     if (auto copied = copy_section(source, entry, at, *file); !copied) return copied;
     entry.offset = at;
   }
-  if (!bytes.empty()) {
-    const std::uint64_t at = place(bytes.size());
-    if (auto wrote = file->write(at, bytes); !wrote) return wrote;
-    sections.push_back({name, at, bytes.size(), hash_bytes(bytes)});
+  for (const PackExtra& extra : given) {
+    if (extra.bytes.empty()) continue;
+    const std::uint64_t at = place(extra.bytes.size());
+    if (auto wrote = file->write(at, extra.bytes); !wrote) return wrote;
+    sections.push_back({extra.name, at, extra.bytes.size(), hash_bytes(extra.bytes)});
   }
   if (auto wrote = file->write(0, header_bytes(sections, end).data); !wrote) return wrote;
   return file->finish();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "pack_format.h"
+#include "vsprite/pack.h"
 
 namespace vsprite::detail {
 
@@ -18,10 +19,10 @@ const SectionEntry* find_section(const PackContent& content, std::string_view na
 /// CannotRead, CorruptData.
 Result<std::vector<std::uint8_t>> read_section(const ByteSource& source, const SectionEntry& entry);
 
-/// Writes the pack to `to`, with `bytes` in the place of its sections of that name; none if there
-/// are no bytes. The file appears whole or not at all. Errors: those of read_table, CannotRead,
-/// CannotCreate, CannotWrite.
-Result<void> copy_with_section(const ByteSource& source, const std::string& to,
-                               const std::string& name, std::span<const std::uint8_t> bytes);
+/// Writes the pack to `to`, with `given` in the place of its sections of those names; none where
+/// there are no bytes. The file appears whole or not at all. Errors: those of read_table,
+/// CannotRead, CannotCreate, CannotWrite.
+Result<void> copy_with_sections(const ByteSource& source, const std::string& to,
+                                std::span<const PackExtra> given);
 
 }  // namespace vsprite::detail

@@ -63,6 +63,29 @@ Result<void> check_mesh(const Puppet& puppet) {
   return {};
 }
 
+Result<void> check_sets(Puppet& puppet) {
+  const std::size_t count = puppet.sets.size();
+  if (count == 1 || count > kMostSets)
+    return bad_puppet(puppet, std::to_string(count) + " example sets, none or 2 to 64 are due");
+  for (std::size_t s = 0; s < count; ++s) {
+    ExampleSet& set = puppet.sets[s];
+    const std::string name = "example set " + std::to_string(s);
+    auto net = make_rbf_network(std::move(set.net));
+    if (!net) return bad_puppet(puppet, name + ": " + net.error().message);
+    set.net = std::move(*net);
+    if (set.net.dims != puppet.net.dims || set.net.outputs != puppet.net.outputs)
+      return bad_puppet(puppet, name + ": a network of other parameters and control points");
+    if (set.net.hull.empty()) return bad_puppet(puppet, name + " has no hull");
+    if (set.median.size() != puppet.parameters.size())
+      return bad_puppet(puppet, name + ": a median of other parameters");
+    for (const double m : set.median)
+      if (!std::isfinite(m)) return bad_puppet(puppet, name + ": a median that is not finite");
+    for (const std::uint32_t join : set.joins)
+      if (join >= count) return bad_puppet(puppet, name + " joins set " + std::to_string(join));
+  }
+  return {};
+}
+
 Result<void> check_networks(Puppet& puppet) {
   auto net = make_rbf_network(std::move(puppet.net));
   if (!net) return bad_puppet(puppet, net.error().message);
@@ -71,6 +94,7 @@ Result<void> check_networks(Puppet& puppet) {
   if (static_cast<std::size_t>(puppet.net.dims) != puppet.parameters.size() ||
       static_cast<std::size_t>(puppet.net.outputs) != outputs_due(puppet))
     return bad_puppet(puppet, "a network of other parameters and control points");
+  if (auto ok = check_sets(puppet); !ok) return ok;
   if (!puppet.offset.empty() && puppet.offset.size() != points)
     return bad_puppet(puppet, "an offset of other control points");
   for (const Vec2 o : puppet.offset)
@@ -184,9 +208,12 @@ void pose_puppet(const Puppet& puppet, std::span<const double> parameters,
   std::array<double, kMaxHullDims> at{};
   std::copy(parameters.begin(), parameters.end(), at.begin());
   const std::span<double> x = std::span(at).first(parameters.size());
-  pose.outside = clamp_to_hull(puppet.net, x);
+  if (!puppet.sets.empty()) pose.set = choose_set(puppet.sets, x, pose.set);
+  const RbfNetwork& net =
+      puppet.sets.empty() ? puppet.net : puppet.sets[static_cast<std::size_t>(pose.set)].net;
+  pose.outside = clamp_to_hull(net, x);
   const std::size_t points = puppet.point_count(), views = puppet.views.size();
-  predict(puppet.net, x, std::span(pose.scratch).first(outputs_due(puppet)));
+  predict(net, x, std::span(pose.scratch).first(outputs_due(puppet)));
   // Far outside what they were made for networks may yield anything; no pose leaves the numbers.
   constexpr double kFar = 1e6;
   for (double& value : pose.scratch) value = value > -kFar ? std::min(value, kFar) : -kFar;

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// The optional section PUPT (engine/PACK.md): puppets beside a sprite, written by copying a pack.
+// The optional sections PUPT and PSET (engine/PACK.md): puppets beside a sprite, and the example
+// sets of those that have some; written by copying a pack.
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <set>
@@ -20,6 +22,9 @@ constexpr std::uint64_t kMaxPuppetBytes = std::uint64_t{1} << 30;
 
 Error bad_pupt(const std::string& path, const std::string& what) {
   return {ErrorCode::CorruptData, path + ": PUPT: " + what};
+}
+Error bad_pset(const std::string& path, const std::string& what) {
+  return {ErrorCode::CorruptData, path + ": PSET: " + what};
 }
 
 void put_real(Bytes& out, double value) { out.put(std::bit_cast<std::uint64_t>(value)); }
@@ -90,6 +95,13 @@ Result<void> put_puppet(Bytes& out, FrameCodec& codec, const Puppet& puppet) {
   put_points(out, puppet.offset);
   put_real(out, puppet.motion);
   return {};
+}
+
+void put_set(Bytes& out, const ExampleSet& set) {
+  put_network(out, set.net);
+  put_reals(out, set.median);
+  out.put(static_cast<std::uint32_t>(set.joins.size()));
+  for (const std::uint32_t join : set.joins) out.put(join);
 }
 
 // Takes numbers off the front; once something does not fit, everything is 0.
@@ -234,6 +246,72 @@ Result<std::vector<Puppet>> read_puppets(std::span<const std::uint8_t> bytes,
   return out;
 }
 
+ExampleSet take_set(Taker& from) {
+  ExampleSet set;
+  set.net = take_network(from);
+  set.median = from.reals();
+  set.joins.resize(from.count(4, kMostSets));
+  for (std::uint32_t& join : set.joins) join = from.get<std::uint32_t>();
+  return set;
+}
+
+Result<void> read_sets(std::span<const std::uint8_t> bytes, const std::string& path,
+                       std::span<Puppet> puppets) {
+  constexpr std::size_t kLeastBytes = 64;  // of a set: its network's numbers and counts
+  Taker from(bytes);
+  std::size_t next = 0;
+  const std::size_t count = from.count(8 + kLeastBytes, kMaxPuppets);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t index = from.get<std::uint32_t>();
+    if (from.fits() && (index < next || index >= puppets.size()))
+      return bad_pset(path, "puppet " + std::to_string(index) + " after " + std::to_string(next) +
+                                " of " + std::to_string(puppets.size()));
+    std::vector<ExampleSet> sets;
+    const std::size_t due = from.count(kLeastBytes, kMostSets);
+    for (std::size_t s = 0; s < due && from.fits(); ++s) sets.push_back(take_set(from));
+    if (!from.fits() || due == 0)
+      return bad_pset(path, "the sets of puppet " + std::to_string(index) +
+                                " are cut off or hold a wrong count");
+    Puppet parts = std::move(puppets[index]);
+    parts.sets = std::move(sets);
+    auto puppet = make_puppet(std::move(parts));
+    if (!puppet) return bad_pset(path, puppet.error().message);
+    puppets[index] = std::move(*puppet);
+    next = index + 1;
+  }
+  if (!from.fits()) return bad_pset(path, "its first count does not fit its bytes");
+  if (from.left() != 0)
+    return bad_pset(path, std::to_string(from.left()) + " bytes more than its sets need");
+  return {};
+}
+
+Result<std::vector<std::uint8_t>> read_limited(const ByteSource& source,
+                                               const SectionEntry& entry) {
+  if (entry.bytes <= kMaxPuppetBytes) return read_section(source, entry);
+  return Error{ErrorCode::CorruptData, source.name() + ": " + entry.name + ": " +
+                                           std::to_string(entry.bytes) +
+                                           " bytes, at most 2^30 are due"};
+}
+
+Result<std::vector<Puppet>> load(const ByteSource& source, const std::string& path) {
+  const auto content = read_table(source);
+  if (!content) return content.error();
+  std::vector<Puppet> puppets;
+  if (const SectionEntry* entry = find_section(*content, "PUPT")) {
+    const auto bytes = read_limited(source, *entry);
+    if (!bytes) return bytes.error();
+    auto read = read_puppets(*bytes, path);
+    if (!read) return read;
+    puppets = std::move(*read);
+  }
+  if (const SectionEntry* entry = find_section(*content, "PSET")) {
+    const auto bytes = read_limited(source, *entry);
+    if (!bytes) return bytes.error();
+    if (auto read = read_sets(*bytes, path, puppets); !read) return read.error();
+  }
+  return puppets;
+}
+
 }  // namespace
 }  // namespace detail
 
@@ -256,19 +334,35 @@ Result<std::vector<Puppet>> decode_puppets(std::span<const std::uint8_t> bytes,
   }
 }
 
+Result<std::vector<std::uint8_t>> encode_puppet_sets(std::span<const Puppet> puppets) {
+  detail::Bytes out;
+  std::uint32_t count = 0;
+  for (const Puppet& puppet : puppets) count += !puppet.sets.empty();
+  if (count == 0) return std::vector<std::uint8_t>{};
+  out.put(count);
+  for (std::size_t k = 0; k < puppets.size(); ++k) {
+    if (puppets[k].sets.empty()) continue;
+    out.put(static_cast<std::uint32_t>(k));
+    out.put(static_cast<std::uint32_t>(puppets[k].sets.size()));
+    for (const ExampleSet& set : puppets[k].sets) detail::put_set(out, set);
+  }
+  return std::move(out.data);
+}
+
+Result<void> decode_puppet_sets(std::span<const std::uint8_t> bytes, const std::string& name,
+                                std::span<Puppet> puppets) {
+  try {
+    return detail::read_sets(bytes, name, puppets);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorCode::OutOfMemory, name + ": out of memory while reading example sets"};
+  }
+}
+
 Result<std::vector<Puppet>> load_puppets(const std::string& path) {
   try {
     const auto source = detail::ByteSource::open(path);
     if (!source) return source.error();
-    const auto content = detail::read_table(*source);
-    if (!content) return content.error();
-    const detail::SectionEntry* entry = detail::find_section(*content, "PUPT");
-    if (entry == nullptr) return std::vector<Puppet>{};
-    if (entry->bytes > detail::kMaxPuppetBytes)
-      return detail::bad_pupt(path, std::to_string(entry->bytes) + " bytes, at most 2^30 are due");
-    const auto bytes = detail::read_section(*source, *entry);
-    if (!bytes) return bytes.error();
-    return detail::read_puppets(*bytes, path);
+    return detail::load(*source, path);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, path + ": out of memory while reading puppets"};
   }
@@ -277,16 +371,21 @@ Result<std::vector<Puppet>> load_puppets(const std::string& path) {
 Result<void> save_puppets(const std::string& from, const std::string& to,
                           std::span<const Puppet> puppets) {
   try {
-    std::vector<std::uint8_t> bytes;
+    std::array<PackExtra, 2> sections{{{"PUPT", {}}, {"PSET", {}}}};
     if (!puppets.empty()) {
       auto encoded = encode_puppets(puppets);
       if (!encoded) return encoded.error();
-      bytes = std::move(*encoded);
-      if (auto read = detail::read_puppets(bytes, to); !read) return read.error();
+      auto sets = encode_puppet_sets(puppets);
+      if (!sets) return sets.error();
+      auto read = detail::read_puppets(*encoded, to);
+      if (!read) return read.error();
+      if (!sets->empty())
+        if (auto fits = detail::read_sets(*sets, to, *read); !fits) return fits;
+      sections[0].bytes = std::move(*encoded), sections[1].bytes = std::move(*sets);
     }
     const auto source = detail::ByteSource::open(from);
     if (!source) return source.error();
-    return detail::copy_with_section(*source, to, "PUPT", bytes);
+    return detail::copy_with_sections(*source, to, sections);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, to + ": out of memory while writing puppets"};
   }

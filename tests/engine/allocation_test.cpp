@@ -90,12 +90,15 @@ TEST(Allocation, ActionsEventsAndOwnersTakeNone) {
 TEST(Allocation, PosingAndDrawingAPuppetTakesNone) {
   const Puppet puppet = testing::glass_puppet();
   PuppetPose pose = make_pose(puppet);
+  const Puppet two_sets = testing::puppet_of_two_sets();
+  PuppetPose between = make_pose(two_sets);
   PuppetPainter painter;
   Image canvas = make_checkerboard(64, 64);
   render_puppet(puppet, pose, painter, canvas, {8, 8});  // the painter takes what it needs once
   const long before = allocations;
   for (int tick = 0; tick < 50; ++tick) {
     pose_puppet(puppet, std::array{tick / 50.0}, pose);
+    pose_puppet(two_sets, std::array{tick / 5.0}, between);
     render_puppet(puppet, pose, painter, canvas, {8, 8}, 0.5f);
     (void)reach_for({0, 0}, {static_cast<float>(tick), 4}, 20, 20, -1);
   }

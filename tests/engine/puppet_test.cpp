@@ -7,8 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/pack_bytes.h"
+#include "support/temp_folder.h"
 #include "support/tiny_puppet.h"
 #include "vsprite/compose.h"
+#include "vsprite/pack.h"
 #include "vsprite/random.h"
 
 namespace vsprite {
@@ -198,6 +201,113 @@ TEST(ExampleSets, KeepTheirAnswerUntilItsHullIsLeft) {
   EXPECT_EQ(choose(4.5, 1), 1);
   EXPECT_EQ(choose(3.5, 1), 0);
   EXPECT_EQ(choose(12, 1), 1);
+}
+
+using testing::puppet_of_two_sets;
+
+// Between 4 and 6 either set has an answer: the one that gave the last.
+TEST(PuppetSets, AnswerForAsLongAsTheirHullHoldsTheParameters) {
+  const Puppet puppet = puppet_of_two_sets();
+  PuppetPose pose = make_pose(puppet);
+  const auto height = [&](double x) {
+    pose_puppet(puppet, std::array{x}, pose);
+    return pose.center.y;
+  };
+  EXPECT_EQ(height(5), 0);  // the nearer median's; both are: the first
+  EXPECT_EQ(height(2), 0);
+  EXPECT_EQ(height(5.9), 0);
+  EXPECT_EQ(height(6.5), 100);
+  EXPECT_EQ(height(4.1), 100);
+  EXPECT_EQ(height(3.5), 0);
+  EXPECT_EQ(height(-2), 0);
+  EXPECT_EQ(pose.outside, 2);
+  pose.set = -1;  // a pose that is new knows nothing
+  EXPECT_EQ(height(7), 100);
+}
+
+TEST(PuppetSets, ComeBackFromTheirBytesAndFromNoOthers) {
+  const std::vector<Puppet> puppets{testing::glass_puppet(), puppet_of_two_sets()};
+  const auto bytes = encode_puppet_sets(puppets);
+  ASSERT_TRUE(bytes);
+  std::vector<Puppet> back{testing::glass_puppet(), puppet_of_two_sets()};
+  back[1].sets.clear();
+  ASSERT_TRUE(decode_puppet_sets(*bytes, "x.vsp", back));
+  EXPECT_TRUE(back[0].sets.empty());
+  ASSERT_EQ(back[1].sets.size(), 2u);
+  EXPECT_EQ(*encode_puppet_sets(back), *bytes);
+  for (std::size_t n = 0; n < bytes->size(); ++n)
+    ASSERT_FALSE(decode_puppet_sets(std::span(*bytes).first(n), "x.vsp", back)) << n;
+  auto longer = *bytes;
+  longer.push_back(0);
+  EXPECT_FALSE(decode_puppet_sets(longer, "x.vsp", back));
+  EXPECT_TRUE(encode_puppet_sets({back.data(), 1})->empty());
+}
+
+TEST(PuppetSets, NamesThePartThatDoesNotFit) {
+  const auto fault = [](const auto& spoil) {
+    Puppet parts = puppet_of_two_sets();
+    spoil(parts);
+    const auto bytes = encode_puppet_sets({&parts, 1});
+    std::vector<Puppet> into{puppet_of_two_sets()};
+    const auto read = decode_puppet_sets(*bytes, "x.vsp", into);
+    EXPECT_TRUE(read || read.error().code == ErrorCode::CorruptData);
+    return read ? std::string() : read.error().message;
+  };
+  const auto expect = [&](const auto& spoil, const char* words) {
+    EXPECT_NE(fault(spoil).find(words), std::string::npos) << fault(spoil);
+  };
+  EXPECT_EQ(fault([](Puppet&) {}), "");
+  expect([](Puppet& p) { p.sets.resize(1); }, "x.vsp: PSET: puppet still: 1 example sets");
+  expect([](Puppet& p) { p.sets[1].joins = {2}; }, "example set 1 joins set 2");
+  expect([](Puppet& p) { p.sets[0].net.hull.clear(); }, "example set 0 has no hull");
+  expect([](Puppet& p) { p.sets[0].median = {1, 2}; }, "a median of other parameters");
+  expect([](Puppet& p) { p.sets[0].median = {std::nan("")}; }, "a median that is not finite");
+  expect([](Puppet& p) { p.sets[1].net.polynomial.pop_back(); }, "polynomial has");
+  expect([](Puppet& p) { p.sets[1].net = p.sets[1].net, p.sets[1].net.width = 0; }, "width");
+  expect(
+      [](Puppet& p) {
+        p.sets[1].net = testing::straight({1, 2}, {0, 0});
+        p.sets[1].net.hull = {0, 1};
+      },
+      "a network of other parameters and control points");
+}
+
+TEST(PuppetSets, RefuseBytesOfPuppetsThatAreNotThere) {
+  const std::vector<Puppet> puppets{puppet_of_two_sets()};
+  auto bytes = *encode_puppet_sets(puppets);
+  std::vector<Puppet> into{puppet_of_two_sets()};
+  bytes[4] = 1;  // of the second puppet
+  EXPECT_FALSE(decode_puppet_sets(bytes, "x.vsp", into));
+  bytes[4] = 0;
+  auto twice = bytes;
+  twice[0] = 2;
+  twice.insert(twice.end(), bytes.begin() + 4, bytes.end());  // of the same puppet again
+  const auto read = decode_puppet_sets(twice, "x.vsp", into);
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("puppet 0 after 1 of 1"), std::string::npos);
+  bytes[3] = 0xff;  // more puppets than bytes
+  EXPECT_FALSE(decode_puppet_sets(bytes, "x.vsp", into));
+}
+
+// A build that knows no section PSET plays the first set.
+TEST(PuppetSets, LieInASectionOfTheirOwnBesideTheSamePuppets) {
+  const testing::TempFolder folder;
+  const std::string from = folder.file("from.vsp"), to = folder.file("to.vsp");
+  testing::write_bytes(from, testing::tiny_pack_bytes());
+  const std::vector<Puppet> puppets{puppet_of_two_sets()};
+  ASSERT_TRUE(save_puppets(from, to, puppets));
+  EXPECT_TRUE(verify_pack(to)->empty());
+  const auto loaded = load_puppets(to);
+  ASSERT_TRUE(loaded) << loaded.error().message;
+  EXPECT_EQ(loaded->at(0).sets.size(), 2u);
+  Puppet plain = puppet_of_two_sets();
+  plain.sets.clear();
+  EXPECT_EQ(*load_extra(to, "PUPT"), *encode_puppets({&plain, 1}));
+  ASSERT_TRUE(save_puppets(to, to, {&plain, 1}));
+  EXPECT_TRUE(load_extra(to, "PSET")->empty());
+  EXPECT_TRUE(load_puppets(to)->at(0).sets.empty());
+  ASSERT_TRUE(save_puppets(to, to, {}));
+  EXPECT_EQ(testing::read_bytes(to), testing::read_bytes(from));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// fuzz_replay FOLDER - runs every file of FOLDER/{pack,frame,png,puppet,script} through its target:
+// fuzz_replay FOLDER - runs every file of FOLDER/{pack,frame,png,puppet,sets,script} through its target:
 // whatever once broke a reader stays in the corpus, and passes with any compiler.
 #include <cstdio>
 #include <filesystem>
@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   const int frames = replay(folder + "/frame", vsprite::fuzz::fuzz_frame);
   const int pictures = replay(folder + "/png", vsprite::fuzz::fuzz_png);
   const int puppets = replay(folder + "/puppet", vsprite::fuzz::fuzz_puppet);
+  const int sets = replay(folder + "/sets", vsprite::fuzz::fuzz_sets);
   const int scripts = replay(folder + "/script", vsprite::fuzz::fuzz_script);
-  return packs > 0 && frames > 0 && pictures > 0 && puppets > 0 && scripts > 0 ? 0 : 1;
+  return packs > 0 && frames > 0 && pictures > 0 && puppets > 0 && sets > 0 && scripts > 0 ? 0 : 1;
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "pack_format.h"
+#include "support/tiny_puppet.h"
 #include "vsprite/puppet.h"
 #include "vsprite/vsprite.h"
 
@@ -98,6 +99,17 @@ void fuzz_puppet(std::span<const std::uint8_t> bytes) {
   require(again.has_value());
   const auto back = decode_puppets(*again, "again");
   require(back && *encode_puppets(*back) == *again);
+}
+
+void fuzz_sets(std::span<const std::uint8_t> bytes) {
+  std::vector<Puppet> puppets{testing::puppet_of_two_sets()};
+  const auto read = decode_puppet_sets(bytes, "fuzz.vsp", puppets);
+  if (!read) return require(!read.error().message.empty());
+  PuppetPose pose = make_pose(puppets[0]);
+  for (const double x : {5.0, -1e9, 9.0, 1e9, 3.0}) pose_puppet(puppets[0], std::array{x}, pose);
+  const auto again = encode_puppet_sets(puppets);
+  require(again.has_value());
+  require(decode_puppet_sets(*again, "again", puppets) && *encode_puppet_sets(puppets) == *again);
 }
 
 void fuzz_script(std::span<const std::uint8_t> bytes) {

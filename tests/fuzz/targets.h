@@ -18,6 +18,8 @@ void fuzz_frame(std::span<const std::uint8_t> bytes);
 void fuzz_png(std::span<const std::uint8_t> bytes);
 /// Reads a section of puppets, poses and draws them; written again they must be the same bytes.
 void fuzz_puppet(std::span<const std::uint8_t> bytes);
+/// Reads a section of example sets for a puppet of one parameter, and poses it.
+void fuzz_sets(std::span<const std::uint8_t> bytes);
 /// Parses a key script; its entries must come out in ascending order.
 void fuzz_script(std::span<const std::uint8_t> bytes);
 

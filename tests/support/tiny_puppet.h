@@ -80,4 +80,21 @@ inline Puppet glass_puppet() {
   return still_puppet(glass, points, faces);
 }
 
+/// One picture, a parameter from 0 to 10: the first set answers from 0 to 6 with its barycentre at
+/// height 0, the second from 4 to 10 at 100.
+inline Puppet puppet_of_two_sets() {
+  Puppet puppet = still_puppet(speckles(8), {{0, 0}, {8, 0}, {8, 8}, {0, 8}}, {{{0, 1, 2, 3}, 4}});
+  puppet.parameters[0].high = 10;
+  const std::size_t height = 2 * puppet.point_count() + 1;
+  const auto set = [&](double low, double high, double at, std::uint32_t other) {
+    ExampleSet out{puppet.net, {(low + high) / 2}, {other}};
+    out.net.hull = {low, high};
+    out.net.polynomial[height] = at;
+    return out;
+  };
+  puppet.sets = {set(0, 6, 0, 1), set(4, 10, 100, 0)};
+  puppet.net = puppet.sets[0].net;
+  return *make_puppet(std::move(puppet));
+}
+
 }  // namespace vsprite::testing

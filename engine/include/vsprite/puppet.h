@@ -51,6 +51,8 @@ struct PuppetView {
   std::vector<float> light;  ///< linear premultiplied RGBA, made by make_puppet
 };
 
+inline constexpr std::size_t kMostSets = 64;
+
 /// A rigid part: points [first, first + count), turned about its pivot.
 struct PuppetLink {
   std::uint32_t first = 0;
@@ -67,7 +69,8 @@ struct Puppet {
   std::string name;
   std::vector<PuppetParameter> parameters;  ///< (D)
   std::vector<Face> faces;                  ///< at equal depth later ones lie on top
-  RbfNetwork net;
+  RbfNetwork net;                           ///< where there are sets: the first one's
+  std::vector<ExampleSet> sets;   ///< none, or 2..kMostSets whose networks answer in turn (rbf.h)
   RbfNetwork view_map;            ///< from 2 P coordinates to V scores; of one view: not used
   std::vector<PuppetView> views;  ///< (V), at least one
   bool blends = true;             ///< views are mixed by their shares; else the best alone
@@ -88,12 +91,14 @@ struct PuppetPose {
   std::vector<float> shares;    ///< (V) of the views, sum 1
   Vec2 center;                  ///< the barycentre's own place
   double outside = 0;           ///< how far the parameters lay outside the examples' hull
+  int set = -1;                 ///< of the puppet's sets the one that answered, kept while it can
   std::vector<double> scratch;  ///< the network's outputs
   std::vector<double> shape;    ///< (2 P), the view map's inputs
 };
 PuppetPose make_pose(const Puppet& puppet);
 
 /// The pose for these parameters (D), clamped to the hull of the examples. Cost: a `predict`.
+/// Where there are sets, the pose before in `pose` says which may answer (choose_set).
 /// Pre: `pose` came from make_pose of this puppet, or of one with the same network.
 void pose_puppet(const Puppet& puppet, std::span<const double> parameters,
                  PuppetPose& pose) noexcept;
@@ -123,6 +128,12 @@ ArmReach reach_for(Vec2 shoulder, Vec2 target, double upper, double lower, int b
 Result<std::vector<std::uint8_t>> encode_puppets(std::span<const Puppet> puppets);
 Result<std::vector<Puppet>> decode_puppets(std::span<const std::uint8_t> bytes,
                                            const std::string& name);
+
+/// The bytes of a section PSET, the example sets of these puppets (no bytes: none has any), and
+/// back, into puppets that were decoded from the section PUPT beside it. Errors: as above.
+Result<std::vector<std::uint8_t>> encode_puppet_sets(std::span<const Puppet> puppets);
+Result<void> decode_puppet_sets(std::span<const std::uint8_t> bytes, const std::string& name,
+                                std::span<Puppet> puppets);
 
 /// The puppets of the pack at `path`, in the order of the file; none is no error.
 /// Errors: those of load_pack; CorruptData.
