@@ -201,6 +201,68 @@ Puppet make_character(const ViewSet& set, const Puppet& prototype, const Charact
   return out;
 }
 
+RbfConfig network_config(const ViewSet& set) {
+  RbfConfig config = choose_config(set);
+  if (!set.rbf) return config;
+  RbfConfig own = *set.rbf;
+  own.metric = std::move(config.metric), own.period = std::move(config.period);
+  return own;
+}
+
+Result<RbfNetwork> fit_network(const ViewSet& set, const Examples& examples) {
+  if (!set.hyper) return fit_rbf(examples, network_config(set));
+  HyperConfig config = *set.hyper;
+  config.rbf = network_config(set);
+  auto fit = fit_hyperbf(examples, config);
+  if (!fit) return fit.error();
+  return std::move(fit->net);
+}
+
+Examples examples_of(const Examples& all, const std::vector<int>& rows) {
+  Examples out{.dims = all.dims, .outputs = all.outputs, .x = {}, .y = {}};
+  for (const int row : rows) {
+    const auto x = all.x.begin() + std::ptrdiff_t{row} * all.dims;
+    const auto y = all.y.begin() + std::ptrdiff_t{row} * all.outputs;
+    out.x.insert(out.x.end(), x, x + all.dims);
+    out.y.insert(out.y.end(), y, y + all.outputs);
+  }
+  return out;
+}
+
+// Of every parameter by itself.
+std::vector<double> median_of(const Examples& examples) {
+  const auto dims = static_cast<std::size_t>(examples.dims);
+  std::vector<double> out;
+  for (std::size_t d = 0; d < dims; ++d) {
+    std::vector<double> values;
+    for (std::size_t i = d; i < examples.x.size(); i += dims) values.push_back(examples.x[i]);
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    out.push_back((values[(n - 1) / 2] + values[n / 2]) / 2);
+  }
+  return out;
+}
+
+// One network, or one a set; a reader that knows no sets plays the first.
+Result<void> fit_networks(const ViewSet& set, Puppet& puppet) {
+  const Examples all = puppet_examples(set);
+  for (const SetMark& mark : set.sets) {
+    const Examples own = examples_of(all, mark.views);
+    auto net = fit_network(set, own);
+    if (!net) return Error{net.error().code, "set " + mark.name + ": " + net.error().message};
+    puppet.sets.push_back(
+        {std::move(*net), median_of(own), {mark.joins.begin(), mark.joins.end()}});
+  }
+  if (!puppet.sets.empty()) {
+    puppet.net = puppet.sets[0].net;
+    return {};
+  }
+  auto net = fit_network(set, all);
+  if (!net) return net.error();
+  puppet.net = std::move(*net);
+  return {};
+}
+
 }  // namespace
 
 std::vector<Face> make_mesh(const ViewSet& set) {
@@ -237,8 +299,10 @@ RbfConfig choose_config(const ViewSet& set) {
     cyclic |= set.parameters[i].period > 0;
   }
   if (!cyclic) config.period.clear();
+  std::size_t views = set.views.size();
+  for (const SetMark& part : set.sets) views = std::min(views, part.views.size());
   // Darrell's network for limbs; few views do not span a plane.
-  if (cyclic || !set.links.empty() || set.views.size() < dims + 2) {
+  if (cyclic || !set.links.empty() || views < dims + 2) {
     config.kernel = Kernel::Linear;
     config.degree = 0;
     config.pseudo_inverse = !set.links.empty();
@@ -269,23 +333,36 @@ Examples puppet_examples(const ViewSet& set) {
   return e;
 }
 
+double fit_error(const ViewSet& given, const Puppet& puppet) {
+  ViewSet set = given;
+  if (!set.links.empty()) find_link_parameters(set);
+  const Examples e = puppet_examples(set);
+  const std::size_t shape = 2 * puppet.point_count();
+  std::vector<double> out(static_cast<std::size_t>(e.outputs));
+  double sum = 0;
+  std::size_t count = 0;
+  const auto add = [&](const RbfNetwork& net, std::size_t view) {
+    predict(net, set.views[view].at, out);
+    for (std::size_t m = 0; m < shape; ++m, ++count) {
+      const double off = out[m] - e.y[view * out.size() + m];
+      sum += off * off;
+    }
+  };
+  for (std::size_t v = 0; puppet.sets.empty() && v < set.views.size(); ++v) add(puppet.net, v);
+  for (std::size_t s = 0; s < puppet.sets.size(); ++s)
+    for (const int v : set.sets[s].views) add(puppet.sets[s].net, static_cast<std::size_t>(v));
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
 Result<std::vector<Puppet>> fit_puppets(const ViewSet& given) {
   if (auto ok = check_views(given); !ok) return ok.error();
   ViewSet set = given;
   if (!set.links.empty()) find_link_parameters(set);
-  RbfConfig config = choose_config(set);
-  if (set.rbf) {
-    RbfConfig own = *set.rbf;
-    own.metric = config.metric, own.period = config.period;
-    config = std::move(own);
-  }
-  auto net = fit_rbf(puppet_examples(set), config);
-  if (!net) return Error{net.error().code, set.name + ": " + net.error().message};
-
   Puppet puppet;
+  if (auto fitted = fit_networks(set, puppet); !fitted)
+    return Error{fitted.error().code, set.name + ": " + fitted.error().message};
   puppet.name = set.name;
   puppet.parameters = set.parameters;
-  puppet.net = std::move(*net);
   puppet.faces = make_mesh(set);
   puppet.blends = set.blends;
   for (const std::size_t v : textured_views(set)) puppet.views.push_back(make_view(set.views[v]));

@@ -40,6 +40,13 @@ struct Character {
   bool modulate = false;  ///< the movement grows with the ratio of their sizes
 };
 
+/// Views that one smooth map joins, of more that none does (rbf.h, ExampleSet).
+struct SetMark {
+  std::string name;
+  std::vector<int> views{};  ///< two or more
+  std::vector<int> joins{};  ///< the sets that may be entered from this one
+};
+
 struct ViewSet {
   std::string name;
   std::vector<PuppetParameter> parameters{};  ///< (D); with links: one a link, found by itself
@@ -49,13 +56,15 @@ struct ViewSet {
   std::vector<float> depth{};  ///< (P) or empty: 0
   std::vector<LinkMark> links{};
   std::vector<Character> characters{};
-  std::optional<RbfConfig> rbf{};  ///< absent: choose_config
+  std::optional<RbfConfig> rbf{};      ///< absent: choose_config
+  std::optional<HyperConfig> hyper{};  ///< HyperBF, its `rbf` not used; absent: a centre a view
+  std::vector<SetMark> sets{};         ///< none: one network for all views; else two or more
   bool blends = true;
   bool allow_folds = false;
 };
 
-/// Thin-plate of degree 1 where the views allow it, else linear of degree 0; each parameter scaled
-/// to [0, 1].
+/// Thin-plate of degree 1 where the views (of every set) allow it, else linear of degree 0; each
+/// parameter scaled to [0, 1].
 RbfConfig choose_config(const ViewSet& set);
 
 /// The faces of the set, or those that are made where it has none: Delaunay triangles of the first
@@ -70,6 +79,11 @@ Examples puppet_examples(const ViewSet& set);
 /// points, equal parameters, a single view, parameters outside their range, folded faces, numbers
 /// that are none. Errors: BadContent, naming view and point, counted from 1.
 Result<void> check_views(const ViewSet& set);
+
+/// Root mean square, px, of what the fitted prototype misses its views' control points by (the
+/// mean of both coordinates); 0 up to rounding where every view has its centre and there is no
+/// ridge. Pre: `puppet` was fitted to this set.
+double fit_error(const ViewSet& set, const Puppet& puppet);
 
 /// The prototype, then its characters. Errors: those of check_views and fit_rbf.
 Result<std::vector<Puppet>> fit_puppets(const ViewSet& set);

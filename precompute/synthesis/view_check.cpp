@@ -107,12 +107,43 @@ Result<void> check_parameters(const ViewSet& set, const View& view) {
   return {};
 }
 
-Result<void> check_pairs(const ViewSet& set) {
-  for (std::size_t i = 0; i < set.views.size(); ++i)
-    for (std::size_t j = i + 1; j < set.views.size(); ++j)
-      if (set.views[i].at == set.views[j].at)
-        return bad(set.views[j], "has the same parameters as " + set.views[i].name +
-                                     ": one of the two has to go, or to say what differs");
+// Of one set, or of all where there are none.
+Result<void> check_pairs(const ViewSet& set, const std::vector<int>& views) {
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (std::size_t j = i + 1; j < views.size(); ++j) {
+      const View& a = set.views[static_cast<std::size_t>(views[i])];
+      const View& b = set.views[static_cast<std::size_t>(views[j])];
+      if (a.at == b.at)
+        return bad(b, "has the same parameters as " + a.name +
+                          ": one of the two has to go, to say what differs, or to stand in "
+                          "another [[set]]");
+    }
+  return {};
+}
+
+Result<void> check_sets(const ViewSet& set) {
+  std::vector<int> all(set.views.size());
+  std::iota(all.begin(), all.end(), 0);
+  if (set.sets.empty()) return set.links.empty() ? check_pairs(set, all) : Result<void>();
+  const auto wrong = [&](const std::string& what) {
+    return Error{ErrorCode::BadContent, set.name + ": " + what};
+  };
+  if (set.sets.size() < 2 || set.sets.size() > kMostSets)
+    return wrong("sets of views: " + number(set.sets.size()) + ", none or 2 to " +
+                 number(kMostSets) + " are due");
+  bool may_leave = !set.links.empty();
+  for (const PuppetParameter& p : set.parameters) may_leave |= p.period <= 0;
+  if (!may_leave)
+    return wrong("sets of views need a parameter that is not cyclic to tell them apart");
+  std::vector<bool> used(set.views.size(), false);
+  for (const SetMark& mark : set.sets) {
+    if (mark.views.size() < 2) return wrong("set " + mark.name + ": at least two views are due");
+    for (const int v : mark.views) used[static_cast<std::size_t>(v)] = true;
+    if (set.links.empty())
+      if (auto ok = check_pairs(set, mark.views); !ok) return ok;
+  }
+  for (std::size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) return bad(set.views[v], "stands in no set: put it into one, or leave it out");
   return {};
 }
 
@@ -174,8 +205,7 @@ Result<void> check_views(const ViewSet& set) {
   }
   if (pictured == nullptr)
     return Error{ErrorCode::BadContent, set.name + ": no view has a picture"};
-  if (set.links.empty())
-    if (auto ok = check_pairs(set); !ok) return ok;
+  if (auto ok = check_sets(set); !ok) return ok;
   for (const Character& character : set.characters)
     if (auto ok = check_points(character.view, character.view.points, points, apart); !ok)
       return ok;

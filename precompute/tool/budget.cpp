@@ -20,8 +20,8 @@ constexpr std::size_t kPerTransition = 8;
 constexpr std::size_t kPerEntry = 8;           // of a table: next, go
 constexpr std::size_t kPerAction = 20;         // and 4 for every deadline
 constexpr std::size_t kSectionCost = 32 + 64;  // entry of the table, gap before the section
-constexpr std::array<std::string_view, 5> kWhole = {"META", "EVNT", "BODY", "GRND", "PUPT"};
-constexpr std::array<std::string_view, 2> kExtras = {"GRND", "PUPT"};
+constexpr std::array<std::string_view, 6> kWhole = {"META", "EVNT", "BODY", "GRND", "PUPT", "PSET"};
+constexpr std::array<std::string_view, 3> kExtras = {"GRND", "PUPT", "PSET"};
 
 constexpr double kGoalSeconds = 825;  // 300 goals, as `steer --bench` sets a seed
 

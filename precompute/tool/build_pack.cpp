@@ -309,9 +309,11 @@ Result<Json> write_pack(StageRun& run) {
   };
   auto floor = floor_bytes(run);
   if (!floor) return floor.error();
-  auto puppets = puppet_bytes(run.project.folder());
+  auto puppets = puppet_sections(run.project.folder());
   if (!puppets) return puppets.error();
-  const PackExtra extras[] = {{"GRND", std::move(*floor)}, {"PUPT", std::move(*puppets)}};
+  const PackExtra extras[] = {{"GRND", std::move(*floor)},
+                              {"PUPT", std::move(puppets->puppets)},
+                              {"PSET", std::move(puppets->sets)}};
   const bool fits = run.settings.budget == 0;
   const std::string path = fits ? run.pack : run.pack + ".tmp.whole";
   if (auto saved = save_pack(path, *data, source, extras); !saved) return saved.error();

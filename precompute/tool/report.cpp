@@ -297,13 +297,16 @@ Json puppet_json(const Puppet& puppet) {
   return {{"name", puppet.name},          {"points", puppet.point_count()},
           {"faces", puppet.faces.size()}, {"views", puppet.views.size()},
           {"links", puppet.links.size()}, {"kernel", kernel_name(puppet.net.kernel)},
+          {"sets", puppet.sets.size()},   {"centers", puppet.net.center_count()},
           {"parameters", parameters}};
 }
 
 std::string puppet_line(const Puppet& puppet) {
   return puppet.name + ": " + std::to_string(puppet.point_count()) + " control points, " +
          std::to_string(puppet.faces.size()) + " faces, " + std::to_string(puppet.views.size()) +
-         " pictures, kernel " + std::string(kernel_name(puppet.net.kernel)) + "\n";
+         " pictures, kernel " + std::string(kernel_name(puppet.net.kernel)) +
+         (puppet.sets.empty() ? ", " + std::to_string(puppet.net.center_count()) + " centers\n"
+                              : ", " + std::to_string(puppet.sets.size()) + " sets of views\n");
 }
 
 Json info_json(const Sprite& sprite, const PackInfo& info) {

@@ -34,7 +34,7 @@ struct Stage {
 
 // ---- sums of inputs ----
 
-Result<Json> sums(StageRun& run, std::initializer_list<const char*> names) {
+Result<Json> sums(StageRun& run, const std::vector<const char*>& names) {
   Json inputs = Json::object();
   for (const char* name : names) {
     const bool sprites = std::string_view(name) == "sprites";
@@ -51,7 +51,7 @@ Result<Json> sums(StageRun& run, std::initializer_list<const char*> names) {
 }
 
 Result<StageKey> key_of(StageRun& run, const char* stage, Json settings,
-                        std::initializer_list<const char*> inputs) {
+                        const std::vector<const char*>& inputs) {
   auto found = sums(run, inputs);
   if (!found) return found.error();
   return StageKey{stage, std::move(settings), std::move(*found)};
@@ -260,10 +260,10 @@ Result<StageKey> pack_key(StageRun& run) {
                          {"seed", run.settings.seed},
                          {"action-tau", run.settings.action_tau},
                          {"budget", run.settings.budget}};
-  if (std::filesystem::exists(run.project.path("puppets.bin")))
-    return key_of(run, "pack", settings,
-                  {"sprites", "transitions.bin", "values.bin", "puppets.bin"});
-  return key_of(run, "pack", settings, {"sprites", "transitions.bin", "values.bin"});
+  std::vector<const char*> inputs{"sprites", "transitions.bin", "values.bin"};
+  for (const char* name : {"puppets.bin", "puppet_sets.bin"})
+    if (std::filesystem::exists(run.project.path(name))) inputs.push_back(name);
+  return key_of(run, "pack", settings, inputs);
 }
 
 Result<std::string> pack_output(StageRun& run) {

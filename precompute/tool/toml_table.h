@@ -83,6 +83,25 @@ class TomlTable {
       complain(*node, key, "a whole number from 1 to " + std::to_string(most) + " is due");
     return static_cast<int>(value.value_or(1)) - 1;
   }
+  /// Each counted from 1 in the file, from 0 here.
+  std::vector<int> indices(const char* key, int most) {
+    std::vector<int> out;
+    each_of(key, false, "an array of numbers is due", [&](const toml::node& each) {
+      const auto value = each.value<std::int64_t>();
+      if (!value || *value < 1 || *value > most)
+        complain(each, key, "whole numbers from 1 to " + std::to_string(most) + " are due");
+      out.push_back(static_cast<int>(value.value_or(1)) - 1);
+    });
+    return out;
+  }
+  std::vector<std::string> words(const char* key, bool may_be_absent) {
+    std::vector<std::string> out;
+    each_of(key, may_be_absent, "an array of texts is due", [&](const toml::node& each) {
+      if (!each.is_string()) complain(each, key, "texts in quotes are due");
+      out.push_back(each.value<std::string>().value_or(""));
+    });
+    return out;
+  }
   std::vector<double> numbers(const char* key, bool may_be_absent) {
     std::vector<double> out;
     each_of(key, may_be_absent, "an array of numbers is due",

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *kPuppetsFile = "/puppets.bin", *kSetsFile = "/puppet_sets.bin";
+
 void take_faces(TomlTable& from, const char* key, std::uint32_t corners, std::vector<Face>& out) {
   from.each_of(key, true, "an array of arrays is due", [&](const toml::node& each) {
     const toml::array* row = each.as_array();
@@ -49,8 +51,10 @@ class Parser {
     for (const toml::table* each : top.tables("parameter")) take_parameter(*each);
     for (const toml::table* each : top.tables("view")) set_.views.push_back(take_view(*each, true));
     for (const toml::table* each : top.tables("link")) take_link(*each);
+    take_sets(top);
     for (const toml::table* each : top.tables("character")) take_character(*each);
     take_network(top);
+    take_hyper(top);
     top.done();
     if (error_) return *error_;
     if (failed_) return *failed_;
@@ -124,6 +128,41 @@ class Parser {
     set_.links.push_back(std::move(link));
   }
 
+  void take_sets(TomlTable& top) {
+    std::vector<std::vector<std::string>> joins;
+    const std::vector<const toml::table*> tables = top.tables("set");
+    for (const toml::table* each : tables) {
+      TomlTable from(*each, path_, error_);
+      SetMark mark{.name = from.word("name")};
+      mark.views = from.indices("views", static_cast<int>(set_.views.size()));
+      joins.push_back(from.words("joins", true));
+      from.done();
+      set_.sets.push_back(std::move(mark));
+    }
+    for (std::size_t k = 0; k < tables.size(); ++k) {
+      TomlTable from(*tables[k], path_, error_);
+      for (const std::string& name : joins[k]) {
+        int found = -1;
+        for (std::size_t other = 0; other < tables.size(); ++other)
+          if (other != k && set_.sets[other].name == name) found = static_cast<int>(other);
+        if (found < 0) from.complain("joins", "`" + name + "` is no other set");
+        set_.sets[k].joins.push_back(std::max(found, 0));
+      }
+      if (!from.has("joins")) join_neighbours(k);
+    }
+  }
+
+  // Sets that share a view look alike there.
+  void join_neighbours(std::size_t k) {
+    const std::vector<int>& own = set_.sets[k].views;
+    for (std::size_t other = 0; other < set_.sets.size(); ++other) {
+      bool shares = false;
+      for (const int v : set_.sets[other].views)
+        shares |= other != k && std::find(own.begin(), own.end(), v) != own.end();
+      if (shares) set_.sets[k].joins.push_back(static_cast<int>(other));
+    }
+  }
+
   void take_character(const toml::table& table) {
     TomlTable from(table, path_, error_);
     Character character;
@@ -154,6 +193,28 @@ class Parser {
     config.ridge = top.number("ridge", config.ridge);
     config.allow_low_degree = top.flag("allow_low_degree", false);
     if (given) set_.rbf = std::move(config);
+  }
+
+  // Fewer, movable centres and a learned norm, where their number is given.
+  void take_hyper(TomlTable& top) {
+    HyperConfig config;
+    const std::string training = top.word("training", "gradient");
+    if (training != "gradient" && training != "random")
+      top.complain("training", "`" + training + "`: gradient or random is due");
+    if (training == "random") config.training = HyperTraining::RandomSearch;
+    constexpr double kMostSteps = 1e6, kMostSeed = 1e9;
+    config.steps = static_cast<int>(top.number("steps", double(config.steps), 0, kMostSteps));
+    config.temperature = top.number("temperature", config.temperature);
+    if (config.temperature < 0) top.complain("temperature", "0 or more is due");
+    config.seed = static_cast<std::uint64_t>(top.number("seed", double(config.seed), 0, kMostSeed));
+    if (top.has("centers")) {
+      config.centers = top.index("centers", static_cast<int>(set_.views.size())) + 1;
+      set_.hyper = std::move(config);
+      return;
+    }
+    for (const char* key : {"training", "steps", "temperature", "seed"})
+      if (top.has(key))
+        top.complain(key, "centers, the number of movable centres, is due beside it");
   }
 
   int take_degree(TomlTable& top) {
@@ -232,18 +293,39 @@ Result<void> save_puppet_pack(const std::string& path, const std::vector<Puppet>
   };
   auto bytes = encode_puppets(puppets);
   if (!bytes) return bytes.error();
-  const PackExtra extra{"PUPT", std::move(*bytes)};
-  return save_pack(path, ring_of_views(puppets[0]), frames, {&extra, 1});
+  auto sets = encode_puppet_sets(puppets);
+  if (!sets) return sets.error();
+  const PackExtra extras[] = {{"PUPT", std::move(*bytes)}, {"PSET", std::move(*sets)}};
+  return save_pack(path, ring_of_views(puppets[0]), frames, extras);
 }
 
-Result<std::vector<std::uint8_t>> puppet_bytes(const std::string& work) {
-  const std::string path = work + "/puppets.bin";
-  if (!fs::exists(path)) return std::vector<std::uint8_t>{};
+Result<void> write_puppets(const std::string& work, const std::vector<Puppet>& puppets) {
+  const auto bytes = encode_puppets(puppets);
+  if (!bytes) return bytes.error();
+  const auto sets = encode_puppet_sets(puppets);
+  if (!sets) return sets.error();
+  if (auto wrote = write_files({{work + kPuppetsFile, *bytes}, {work + kSetsFile, *sets}}); !wrote)
+    return wrote;
+  return sync_folder(work);
+}
+
+Result<PuppetSections> puppet_sections(const std::string& work) {
+  PuppetSections out;
+  const std::string path = work + kPuppetsFile;
+  if (!fs::exists(path)) return out;
   const auto text = read_file(path);
   if (!text) return text.error();
-  std::vector<std::uint8_t> bytes(text->begin(), text->end());
-  if (const auto puppets = decode_puppets(bytes, path); !puppets) return puppets.error();
-  return bytes;
+  out.puppets.assign(text->begin(), text->end());
+  auto puppets = decode_puppets(out.puppets, path);
+  if (!puppets) return puppets.error();
+  const std::string sets_path = work + kSetsFile;
+  if (!fs::exists(sets_path)) return out;
+  const auto sets = read_file(sets_path);
+  if (!sets) return sets.error();
+  if (sets->empty()) return out;
+  out.sets.assign(sets->begin(), sets->end());
+  if (auto fits = decode_puppet_sets(out.sets, sets_path, *puppets); !fits) return fits.error();
+  return out;
 }
 
 }  // namespace vsprite

@@ -5,10 +5,15 @@
 //
 //     name = "face"
 //     texture = "blend"                  # views mixed, or "choose": the best one alone
-//     kernel = "thin-plate"              # all five may be left out: linear, gaussian, thin-plate,
+//     kernel = "thin-plate"              # all may be left out: linear, gaussian, thin-plate,
 //     degree = 1                         # multiquadric; "none", 0 or 1
 //     width = 1.0                        # of gaussian and multiquadric, where a parameter's range
 //     ridge = 0.0                        # is 1; above 0 for noisy examples
+//     centers = 4                        # HyperBF: so many centres for all views, which then are
+//     training = "gradient"              # met only nearly; they and the norm are trained, "random"
+//     steps = 400                        # is a search that keeps some worse tries (Metropolis) by
+//     temperature = 0.01                 # its temperature, a share of the error
+//     seed = 1
 //     depth = [0, 0, 1]                  # of each point, larger is nearer; a view may have its own
 //     triangles = [[1, 2, 3]]            # points are counted from 1; without triangles and quads
 //     quads = [[1, 2, 3, 4]]             # the mesh is made
@@ -32,6 +37,12 @@
 //     pivot = 1                          # points: where it turns, where it points to
 //     end = 10
 //     parent = "body"                    # an earlier link
+//
+//     [[set]]                            # where no smooth map joins all views, two sets or more:
+//     name = "arm up"                    # one answers until the parameters leave its hull, then
+//     views = [1, 2, 3]                  # one that it joins; views may share their parameters
+//     joins = ["arm down"]               # with those of another set; left out: all that have a
+//                                        # view in common with it
 //
 //     [[character]]                      # moved by parallel deformation
 //     name = "jayne"
@@ -62,8 +73,14 @@ Result<ViewSet> parse_draft_views(const std::string& text, const std::string& pa
 /// Pre: at least one puppet. Errors: those of save_pack and encode_puppets.
 Result<void> save_puppet_pack(const std::string& path, const std::vector<Puppet>& puppets);
 
-/// The section PUPT that `fit --work` left in a work folder, checked; empty: none.
+/// What `fit --work` leaves in a work folder. Errors: those of encode_puppets and write_file.
+Result<void> write_puppets(const std::string& work, const std::vector<Puppet>& puppets);
+
+/// The sections PUPT and PSET from there, checked; each may be empty.
+struct PuppetSections {
+  std::vector<std::uint8_t> puppets, sets;
+};
 /// Errors: CorruptData, those of read_file.
-Result<std::vector<std::uint8_t>> puppet_bytes(const std::string& work);
+Result<PuppetSections> puppet_sections(const std::string& work);
 
 }  // namespace vsprite

@@ -41,12 +41,19 @@ void PuppetPreview::find_reach() {
   for (const Puppet& puppet : puppets_) {
     PuppetPose pose = make_pose(puppet);
     const auto dims = static_cast<std::size_t>(puppet.net.dims);
-    for (std::size_t k = 0; k + dims <= puppet.net.centers.size(); k += dims) {
-      pose_puppet(puppet, std::span(puppet.net.centers).subspan(k, dims), pose);
-      for (const Vec2 p : pose.points) {
-        low_ = {std::min(low_.x, p.x + pose.center.x), std::min(low_.y, p.y + pose.center.y)};
-        high_ = {std::max(high_.x, p.x + pose.center.x), std::max(high_.y, p.y + pose.center.y)};
+    const auto extend = [&](const RbfNetwork& net) {
+      for (std::size_t k = 0; k + dims <= net.centers.size(); k += dims) {
+        pose_puppet(puppet, std::span(net.centers).subspan(k, dims), pose);
+        for (const Vec2 p : pose.points) {
+          low_ = {std::min(low_.x, p.x + pose.center.x), std::min(low_.y, p.y + pose.center.y)};
+          high_ = {std::max(high_.x, p.x + pose.center.x), std::max(high_.y, p.y + pose.center.y)};
+        }
       }
+    };
+    extend(puppet.net);
+    for (const ExampleSet& set : puppet.sets) {
+      pose.set = static_cast<int>(&set - puppet.sets.data());
+      extend(set.net);
     }
   }
 }

@@ -67,6 +67,34 @@ expect 3 vsprite points art/arm.toml --script limb.txt; says "belong to their li
 sed '/face_2.png/,/^$/s/^points = \[\[[^]]*\], /points = [/' art/face.toml >art/uneven.toml
 expect 3 vsprite points art/uneven.toml; says "every view needs all of them"; one_sentence
 
+# What a fit would refuse may be opened, to be mended, and is told.
+mend() {
+  expect 0 vsprite points "$1" --json; says "not to be fitted yet: $2"; is_json /fault
+}
+sed 's/^at = \[36, 0\]/at = [0, 0]/' art/face.toml >art/same.toml
+mend art/same.toml "face_2.png: has the same parameters as face_1.png"
+sed 's/^at = \[36, 0\]/at = [50, 0]/' art/face.toml >art/outside.toml
+mend art/outside.toml "face_2.png: rotation = 50 lies outside 0 to 36"
+sed 's/^points = \[\([^]]*\]\), \[[^]]*\]/points = [\1, \1/' art/face.toml >art/meet.toml
+mend art/meet.toml "face_1.png: control points 1 and 2 lie at the same place"
+awk '/\[\[view\]\]/ { n++ } n < 2' art/face.toml >art/one.toml
+mend art/one.toml "face: 1 view: at least two are due"
+sed 's/face_3.png/john.png/' art/face.toml >art/sizes.toml
+mend art/sizes.toml "john.png: "
+printf '[[parameter]]\nname = "t"\n' >art/line.toml
+for at in 0 1; do
+  printf '[[view]]\nfile = "face_1.png"\nat = [%d]\npoints = [[9, 9], [20, 20], [%d, 40]]\n' $at $((40 + 30 * at))
+done >>art/line.toml
+mend art/line.toml "face_1.png: all control points lie on one line"
+{ echo 'triangles = [[1, 2, 3]]'; sed 's/\[40, 40\]/[30, 70]/' art/line.toml; } >art/fold.toml
+mend art/fold.toml "face_1.png: face 1 is folded over or flat here"
+sed 's/\[9, 9\]/[nan, 9]/' art/line.toml >art/nan.toml
+expect 3 vsprite points art/nan.toml; says "art/nan.toml:6: points: control point 1 is no place"; one_sentence
+awk 'BEGIN { for (i = 0; i < 10000; ++i) printf "add 1 %d.5 %d\n", i % 300 + 1, int(i / 300) * 9 + i % 7 + 1 }' >many.txt
+cp art/mine.toml art/many.toml
+expect 0 timeout 30 "$BIN/vsprite" points art/many.toml --script many.txt
+prints "10007 control points"
+
 # A window without a person.
 expect 0 vsprite points art/kept.toml --window --headless --frames 5 --record shot.png --json
 is_json /saved

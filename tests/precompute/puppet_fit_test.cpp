@@ -170,6 +170,81 @@ TEST(PuppetFit, TakesTenThousandControlPoints) {
   EXPECT_GT(puppets->at(0).faces.size(), 19000u);
 }
 
+// Fewer centres than views: near the views, never on them, and no farther for other units.
+TEST(PuppetFit, MeetsTheViewsNearlyWithFewerCenters) {
+  ViewSet set = puppet_art::face_views();
+  EXPECT_LT(fit_error(set, fit_puppets(set)->at(0)), 1e-9);
+  for (const HyperTraining training : {HyperTraining::Gradient, HyperTraining::RandomSearch}) {
+    set.hyper = HyperConfig{.centers = 3, .training = training, .steps = 0};
+    set.rbf = RbfConfig{.kernel = Kernel::Gaussian, .degree = 0, .width = 0.5};
+    const double before = fit_error(set, fit_puppets(set)->at(0));
+    set.hyper->steps = 300;
+    const auto fitted = fit_puppets(set);
+    ASSERT_TRUE(fitted) << fitted.error().message;
+    EXPECT_EQ(fitted->at(0).net.center_count(), 3);
+    const double after = fit_error(set, fitted->at(0));
+    EXPECT_GT(after, 1e-6);
+    EXPECT_LT(after, 0.8 * before);
+    ViewSet large = set;  // the same in thousandths of a degree
+    large.parameters[0].high *= 1000;
+    for (View& view : large.views) view.at[0] *= 1000;
+    EXPECT_NEAR(fit_error(large, fit_puppets(large)->at(0)), after, 0.02 * after);
+  }
+}
+
+// A square that hangs high from 0 to 6 and low from 4 to 10: no map joins all its views.
+ViewSet high_and_low() {
+  ViewSet set{.name = "square", .parameters = {{"x", 0, 10, 0}}};
+  for (const auto& [x, y] : {std::pair{0.0f, 0.0f},
+                             {3.0f, 0.0f},
+                             {6.0f, 0.0f},
+                             {4.0f, 50.0f},
+                             {6.0f, 50.0f},
+                             {10.0f, 50.0f}})
+    set.views.push_back({.name = "view",
+                         .picture = make_image(20, 90, 9, 9, 9),
+                         .at = {x},
+                         .points = {{x, y}, {x + 9, y}, {x + 9, y + 9}, {x, y + 9}}});
+  set.sets = {{"high", {0, 1, 2}, {1}}, {"low", {3, 4, 5}, {0}}};
+  return set;
+}
+
+TEST(PuppetFit, JoinsTheViewsOfASetAndNoOthers) {
+  const ViewSet set = high_and_low();
+  const auto fitted = fit_puppets(set);
+  ASSERT_TRUE(fitted) << fitted.error().message;
+  const Puppet& puppet = fitted->at(0);
+  EXPECT_LT(fit_error(set, puppet), 1e-9);
+  EXPECT_EQ(puppet.sets[1].median, std::vector<double>{6});
+  PuppetPose pose = make_pose(puppet);
+  const auto top = [&](double x) {
+    pose_puppet(puppet, std::array{x}, pose);
+    return pose.points[0].y + pose.center.y;
+  };
+  for (const double x : {1.0, 4.5, 6.0}) EXPECT_NEAR(top(x), 0, 1e-4) << x;
+  for (const double x : {6.5, 6.0, 4.0}) EXPECT_NEAR(top(x), 50, 1e-4) << x;
+  EXPECT_NEAR(top(3.9), 0, 1e-4);
+}
+
+TEST(PuppetFit, NamesWhatIsWrongWithSets) {
+  const auto fault = [](const auto& spoil) {
+    ViewSet set = high_and_low();
+    spoil(set);
+    const auto checked = check_views(set);
+    EXPECT_TRUE(checked || checked.error().code == ErrorCode::BadContent);
+    return checked ? std::string() : checked.error().message;
+  };
+  const auto expect = [&](const auto& spoil, const char* words) {
+    EXPECT_NE(fault(spoil).find(words), std::string::npos) << fault(spoil);
+  };
+  expect([](ViewSet& s) { s.sets.clear(); }, "has the same parameters");
+  expect([](ViewSet& s) { s.sets[0].views.push_back(4); }, "has the same parameters");
+  expect([](ViewSet& s) { s.sets.pop_back(); }, "sets of views: 1, none or 2 to 64 are due");
+  expect([](ViewSet& s) { s.sets[1].views = {3}; }, "set low: at least two views are due");
+  expect([](ViewSet& s) { s.sets[1].views = {3, 4}; }, "stands in no set");
+  expect([](ViewSet& s) { s.parameters[0].period = 10; }, "a parameter that is not cyclic");
+}
+
 // Every triangle's circle is empty; together they fill the hull.
 TEST(Delaunay, TrianglesHaveEmptyCirclesAndFillTheHull) {
   Random random{2};

@@ -41,10 +41,7 @@ Result<int> run_fit(const Settings& settings, Console& console) {
       return Error{ErrorCode::NotFound, settings.work + ": no such work folder"};
     const auto lock = FolderLock::take(settings.work);
     if (!lock) return lock.error();
-    const auto bytes = encode_puppets(*puppets);
-    if (!bytes) return bytes.error();
-    const std::string_view view(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    if (auto wrote = write_file(settings.work + "/puppets.bin", view); !wrote) return wrote.error();
+    if (auto wrote = write_puppets(settings.work, *puppets); !wrote) return wrote.error();
   }
   Json list = Json::array();
   std::string lines;
@@ -52,8 +49,10 @@ Result<int> run_fit(const Settings& settings, Console& console) {
     list.push_back(puppet_json(puppet));
     lines += puppet_line(puppet);
   }
+  const double error = fit_error(*set, (*puppets)[0]);
+  if (set->hyper) lines += "its points miss the views by " + fixed_text(error, 2) + " px (rms)\n";
   console.text(lines);
-  console.document({{"puppets", list}});
+  console.document({{"puppets", list}, {"fit_error", error}});
   console.next(settings.output.empty() ? "vsprite pack --work " + shell_word(settings.work)
                                        : "vsprite info " + shell_word(settings.output));
   return 0;
