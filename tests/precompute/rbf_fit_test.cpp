@@ -13,7 +13,6 @@
 namespace vsprite {
 namespace {
 
-// A smooth map of `dims` parameters to three numbers, at seeded places.
 // A smooth map of the places to three numbers.
 void take_values(Examples& e) {
   e.y.clear();
@@ -112,14 +111,23 @@ TEST(RbfFit, KeepsTheResidualOfIllConditionedSystems) {
 }
 
 TEST(RbfFit, EqualsTheReferenceWithRidgeMetricAndCycles) {
-  const Examples e = smooth_examples(2, 12);
-  for (int k = 0; k < kKernelCount; ++k) {
-    RbfConfig config{.kernel = static_cast<Kernel>(k), .degree = 1, .width = 0.4, .ridge = 0.05};
-    config.metric = {1.5, 0.3, -0.2, 0.8};
-    expect_equal_to_reference(e, config, "ridge, metric");
-    config.degree = 0, config.allow_low_degree = true, config.period = {1.25, 0};
-    expect_equal_to_reference(e, config, "cyclic");
-  }
+  const Examples e = spread_examples(2, 12);
+  for (int k = 0; k < kKernelCount; ++k)
+    for (int degree = -1; degree <= 1; ++degree) {
+      RbfConfig config{.kernel = static_cast<Kernel>(k),
+                       .degree = degree,
+                       .allow_low_degree = true,
+                       .width = 0.2,
+                       .ridge = 0.05};
+      config.metric = {1.5, 0.3, -0.2, 0.8};
+      expect_equal_to_reference(e, config, "ridge, metric");
+      config.period = {1.25, 0};
+      expect_equal_to_reference(e, config, "ridge, metric, cyclic");
+      config.metric.clear(), config.ridge = 0;
+      expect_equal_to_reference(e, config, "cyclic");
+      config.period = {1.25, 2};
+      expect_equal_to_reference(e, config, "cyclic in both");
+    }
 }
 
 // tests/golden/rbf_scipy.txt is written by tests/golden/rbf_scipy.py: scipy's RBFInterpolator.
@@ -178,23 +186,33 @@ TEST(RbfFit, IsExactAtTheExamplesAndKeepsTheSideConditions) {
   }
 }
 
-TEST(RbfFit, LeaveOneOutInClosedFormIsThatOfFittingAnew) {
-  const Examples e = smooth_examples(2, 12);
-  for (int k = 0; k < kKernelCount; ++k) {
-    const RbfConfig config{
-        .kernel = static_cast<Kernel>(k), .width = 0.4, .ridge = k == 1 ? 1e-3 : 0};
-    const auto errors = leave_one_out(e, config);
-    ASSERT_TRUE(errors);
-    for (std::size_t i = 0; i < 12; ++i) {
-      Examples rest = e;
-      const auto at = static_cast<std::ptrdiff_t>(i);
-      rest.x.erase(rest.x.begin() + 2 * at, rest.x.begin() + 2 * at + 2);
-      rest.y.erase(rest.y.begin() + 3 * at, rest.y.begin() + 3 * at + 3);
-      const auto found = value(*fit_rbf(rest, config), {e.x[2 * i], e.x[2 * i + 1]});
-      for (std::size_t m = 0; m < 3; ++m)
-        EXPECT_NEAR((*errors)[3 * i + m], e.y[3 * i + m] - found[m], 1e-7) << k;
-    }
-  }
+TEST(RbfFit, LeaveOneOutInClosedFormIsTheReferenceFittedAnew) {
+  const Examples e = spread_examples(2, 12);
+  for (int k = 0; k < kKernelCount; ++k)
+    for (int degree = -1; degree <= 1; ++degree)
+      for (const bool cyclic : {false, true}) {
+        RbfConfig config{.kernel = static_cast<Kernel>(k),
+                         .degree = degree,
+                         .allow_low_degree = true,
+                         .width = 0.2,
+                         .ridge = degree == 0 ? 1e-3 : 0};
+        if (cyclic) config.period = {1.25, 0};
+        ASSERT_LT(reference::condition(e, config), 1e6) << k << " degree " << degree;
+        const auto errors = leave_one_out(e, config);
+        ASSERT_TRUE(errors);
+        for (std::size_t i = 0; i < 12; ++i) {
+          Examples rest = e;
+          const auto at = static_cast<std::ptrdiff_t>(i);
+          rest.x.erase(rest.x.begin() + 2 * at, rest.x.begin() + 2 * at + 2);
+          rest.y.erase(rest.y.begin() + 3 * at, rest.y.begin() + 3 * at + 3);
+          const auto left = reference::interpolate(rest, config, &e.x[2 * i]);
+          for (std::size_t m = 0; m < 3; ++m) {
+            const double due = e.y[3 * i + m] - static_cast<double>(left[m]);
+            EXPECT_NEAR((*errors)[3 * i + m], due, 1e-9 * std::max(1.0, std::abs(due)))
+                << kernel_name(config.kernel) << " degree " << degree << " example " << i;
+          }
+        }
+      }
 }
 
 TEST(RbfFit, RefusesKernelsBelowTheirDegreeUnlessAskedByName) {

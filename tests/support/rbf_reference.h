@@ -67,10 +67,19 @@ inline void eliminate(std::vector<Row>& a) {
     for (std::size_t j = n; j < a[i].size(); ++j) a[i][j] /= a[i][i];
 }
 
+// The polynomial's terms at x: 1, then every parameter that is not cyclic.
+inline Row terms_of(const double* x, int dims, const RbfConfig& config) {
+  Row out;
+  if (config.degree >= 0) out.push_back(1);
+  for (int d = 0; config.degree == 1 && d < dims; ++d)
+    if (config.period.empty() || config.period[std::size_t(d)] <= 0) out.push_back(Real(x[d]));
+  return out;
+}
+
 // The interpolant's system, (N + terms, N + terms + outputs): the last columns are the right side.
 inline std::vector<Row> system_of(const Examples& e, const RbfConfig& config) {
   const int n = e.count(), dims = e.dims;
-  const int terms = config.degree < 0 ? 0 : config.degree == 0 ? 1 : 1 + dims;
+  const int terms = static_cast<int>(terms_of(e.x.data(), dims, config).size());
   const bool negative = config.kernel == Kernel::Linear || config.kernel == Kernel::Multiquadric;
   std::vector<Row> a(std::size_t(n + terms), Row(std::size_t(n + terms + e.outputs), 0));
   for (int i = 0; i < n; ++i) {
@@ -79,9 +88,10 @@ inline std::vector<Row> system_of(const Examples& e, const RbfConfig& config) {
       a[std::size_t(i)][std::size_t(j)] = kernel(
           config.kernel, distance(x, &e.x[std::size_t(j * dims)], dims, config), config.width);
     a[std::size_t(i)][std::size_t(i)] += negative ? -config.ridge : config.ridge;
+    const Row term = terms_of(x, dims, config);
     for (int t = 0; t < terms; ++t)
       a[std::size_t(i)][std::size_t(n + t)] = a[std::size_t(n + t)][std::size_t(i)] =
-          t == 0 ? Real(1) : Real(x[t - 1]);
+          term[std::size_t(t)];
     for (int m = 0; m < e.outputs; ++m)
       a[std::size_t(i)][std::size_t(n + terms + m)] = e.y[std::size_t(i * e.outputs + m)];
   }
@@ -114,8 +124,8 @@ inline Real condition(const Examples& e, const RbfConfig& config) {
 // The interpolant's value at `at` (D), one number an output.
 inline Row interpolate(const Examples& e, const RbfConfig& config, const double* at) {
   const int n = e.count(), dims = e.dims;
-  const int terms = config.degree < 0 ? 0 : config.degree == 0 ? 1 : 1 + dims;
-  const auto term = [&](const double* x, int t) { return t == 0 ? Real(1) : Real(x[t - 1]); };
+  const Row term = terms_of(at, dims, config);
+  const int terms = static_cast<int>(term.size());
   std::vector<Row> a = system_of(e, config);
   eliminate(a);
   Row out(std::size_t(e.outputs), 0);
@@ -127,7 +137,7 @@ inline Row interpolate(const Examples& e, const RbfConfig& config, const double*
           kernel(config.kernel, distance(at, &e.x[std::size_t(j * dims)], dims, config),
                  config.width);
     for (int t = 0; t < terms; ++t)
-      out[std::size_t(m)] += a[std::size_t(n + t)][column] * term(at, t);
+      out[std::size_t(m)] += a[std::size_t(n + t)][column] * term[std::size_t(t)];
   }
   return out;
 }
