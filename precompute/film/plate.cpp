@@ -219,7 +219,9 @@ Ycc from_centre(const Bare& bare, const Grid& grid, std::size_t i) {
 
 // Bare samples lie within 3.5 sigma + 1 of the centre and so do all their neighbours: the erosion
 // keeps motion blur and bleeding colour out of the plate.
-void find_bare(const std::vector<Grid>& grids, Bare& bare) {
+// `most`: no larger a sigma is believed. Where the subject covers half of all samples the spread is
+// its own.
+void find_bare(const std::vector<Grid>& grids, const double (&most)[3], Bare& bare) {
   Spread spread[3];
   for (const Grid& grid : grids)
     for (std::size_t i = 0; i < grid.cells(); i += 5) {
@@ -230,7 +232,7 @@ void find_bare(const std::vector<Grid>& grids, Bare& bare) {
     }
   float reach[3];
   for (int p = 0; p < 3; ++p) {
-    bare.sigma[p] = spread[p].sigma();
+    bare.sigma[p] = std::min(spread[p].sigma(), most[p]);
     reach[p] = static_cast<float>(3.5 * bare.sigma[p] + 1);
   }
   std::uint64_t near = 0;
@@ -458,7 +460,7 @@ void model_colored(std::span<const Frame> frames, const std::vector<Grid>& grids
     bare.centre[1][i] = static_cast<float>((y - 0.114 * b - 0.299 * r) / 0.587);
     bare.centre[2][i] = static_cast<float>(b);
   }
-  find_bare(grids, bare);
+  find_bare(grids, surface.sigma, bare);
   average_bare(frames, grids, bare, screen);
   measure_noise(frames, grids, bare, screen);
   measure_color(screen);
@@ -466,19 +468,21 @@ void model_colored(std::span<const Frame> frames, const std::vector<Grid>& grids
   screen.key = choose_key(screen.color);
 }
 
+constexpr double kAnySigma[3] = {255, 255, 255};
+
 Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vector<Grid>& grids,
                                    double least_steady, ScreenModel screen) {
   Bare bare;
   std::vector<std::uint8_t> known;
   find_centres(
       grids, bare, [](std::size_t) { return [](const Grid&) { return true; }; }, known);
-  find_bare(grids, bare);
+  find_bare(grids, kAnySigma, bare);
   const double noise =
       std::sqrt(bare.sigma[0] * bare.sigma[0] +
                 2 * (bare.sigma[1] * bare.sigma[1] + bare.sigma[2] * bare.sigma[2]));
   if (detail::look_behind(grids, static_cast<float>(noise), bare.centre)) {
     bare.in.clear();
-    find_bare(grids, bare);
+    find_bare(grids, kAnySigma, bare);
   }
   if (bare.steady < least_steady)
     return Error{ErrorCode::BadContent,

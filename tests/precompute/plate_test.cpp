@@ -65,6 +65,17 @@ TEST(Plate, SeesBehindASubjectThatRests) {
   EXPECT_LT(mean_plate_error(scene, *screen), 0.8);
 }
 
+// The spread of all samples is then that of the subject, and says nothing of the screen.
+TEST(Plate, KeepsOutASubjectThatFillsMoreThanHalfOfThePicture) {
+  SyntheticFilm scene;
+  scene.subject[0] = 120, scene.subject[1] = 95, scene.subject[2] = 90;
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i) frames.push_back(scene.frame(i, {{100.0 + i, 150, 150, 110}}));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  EXPECT_LT(mean_plate_error(scene, *screen), 3);
+}
+
 // Stripes of many colours behind everything: no single screen.
 std::array<int, 3> stripes(int x, int y) {
   const int stripe = x / 16 * 37 % 160;
