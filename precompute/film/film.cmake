@@ -16,6 +16,7 @@ target_sources(vsprite_precompute PRIVATE
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp
+  film/touch_up.cpp
   film/coverage.cpp
   film/subject.cpp
   film/extract.cpp

@@ -17,6 +17,7 @@
 #include "film/color.h"
 #include "film/coverage.h"
 #include "film/light.h"
+#include "film/touch_up.h"
 #include "film/unmix.h"
 
 namespace vsprite {
@@ -52,6 +53,7 @@ struct Keyer::Impl {
   std::size_t stride = 0;
   std::vector<float> detail, plate;  // linear luma less the plate's, and the plate's
   std::vector<std::uint8_t> alpha;
+  std::vector<std::uint8_t> measured;  // alpha before a person's settings; empty without any
 
   void prepare();
   void place(const Frame& frame);
@@ -59,9 +61,12 @@ struct Keyer::Impl {
   void measure_guide();
   void mark_inner();
   void raise_alpha();
+  void touch_up_alpha();
   void measure_own_color();
+  void keep_tint(std::ptrdiff_t at, std::size_t count, detail::Planes mixed);
   void find_blobs(KeyedFrame& result, std::vector<int>& labels);
   void paint(const Frame& frame, const std::vector<int>& labels, KeyedFrame& result);
+  void touch_up_color(KeyedFrame& result) const;
   void whole_frame(const Frame& frame, KeyedFrame& result) const;
 };
 
@@ -225,6 +230,33 @@ void Keyer::Impl::raise_alpha() {
   }
 }
 
+void Keyer::Impl::touch_up_alpha() {
+  measured.clear();
+  const bool clipped = config.clip_black > 0 || config.clip_white < 1;
+  if (!clipped && config.edge == 0) return;
+  measured = alpha;
+  if (clipped) detail::stretch(config.clip_black, config.clip_white, alpha);
+  detail::move_edge(config.edge, static_cast<int>(stride), width, height, alpha);
+}
+
+// The screen's tint goes back into own colours, those of `count` cells from `at` on.
+void Keyer::Impl::keep_tint(std::ptrdiff_t at, std::size_t count, detail::Planes mixed) {
+  product.resize(std::max(product.size(), 3 * count));
+  float* const tinted[3] = {product.data(), product.data() + count, product.data() + 2 * count};
+  const float* c[3];
+  const float* b[3];
+  const float* m[3];
+  for (int p = 0; p < 3; ++p) {
+    c[p] = patch.frame[p].data() + at;
+    b[p] = patch.plate[p].data() + at;
+    m[p] = patch.mean[p].data() + at;
+  }
+  lanes().own_color(patch.alpha.data() + at, c, b, m, inner.data() + at, false, {}, count, tinted);
+  for (int p = 0; p < 3; ++p)
+    for (std::size_t i = 0; i < count; ++i)
+      mixed[p][i] = config.despill * mixed[p][i] + (1 - config.despill) * tinted[p][i];
+}
+
 // F per cell, encoded and times alpha: what is then mixed between cells. Outside the spans it is 0.
 void Keyer::Impl::measure_own_color() {
   const std::size_t n = patch.cells();
@@ -248,6 +280,7 @@ void Keyer::Impl::measure_own_color() {
     float* o[3] = {out[0] + at, out[1] + at, out[2] + at};
     const float* weight = patch.alpha.data() + at;
     lanes().own_color(weight, c, b, m, inner.data() + at, screen->key >= 0, shape, count, o);
+    if (screen->key >= 0 && config.despill < 1) keep_tint(at, count, o);
     for (float* plane : o) lanes().encode(weight, plane, count);
   }
 }
@@ -439,6 +472,7 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
   std::vector<float> rows(6 * stride);
   std::vector<std::uint8_t> filmed(4 * stride);
   std::vector<std::uint8_t> painted(4 * stride);
+  const std::vector<std::uint8_t>& coverage = measured.empty() ? alpha : measured;
   for (int y = crop.y - top; y < crop.y - top + crop.height; ++y) {
     const int cy = y / 2;
     const std::uint8_t* inside = deep.row(cy);
@@ -483,7 +517,7 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
           raised = true;
         }
         const float* up = rows.data() + stride + from;
-        lanes().paint_own({alpha.data() + at + from,
+        lanes().paint_own({coverage.data() + at + from,
                            up,
                            {up + stride, up + 2 * stride, up + 3 * stride},
                            detail.data() + at + from,
@@ -505,6 +539,26 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
       begin = end;
     }
   }
+}
+
+// The alpha that was asked for; what it grew over takes the colour beside it.
+void Keyer::Impl::touch_up_color(KeyedFrame& result) const {
+  if (!measured.empty()) {
+    const Rect& crop = result.crop;
+    std::vector<std::uint8_t> grown(result.labels.size());
+    for (int y = 0; y < crop.height; ++y)
+      for (int x = 0; x < crop.width; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(crop.width) +
+                              static_cast<std::size_t>(x);
+        const std::size_t at = static_cast<std::size_t>(crop.y - top + y) * stride +
+                               static_cast<std::size_t>(crop.x - left + x);
+        result.straight.rgba[4 * i + 3] = alpha[at];
+        grown[i] = alpha[at] && !measured[at] ? 1 : 0;
+      }
+    detail::spread_color(grown, result.straight);
+  }
+  if (screen->key >= 0 && config.despill > 1)
+    detail::take_tint_out(detail::shape_of(screen->key), config.despill - 1, result.straight);
 }
 
 // Key `none`: everything is subject, and the frame's border is not its edge.
@@ -566,10 +620,12 @@ KeyedFrame Keyer::key(const Frame& frame, const Frame* before) {
     k.measure_guide();
     k.mark_inner();
     k.raise_alpha();
+    k.touch_up_alpha();
     k.measure_own_color();
     std::vector<int> labels;
     k.find_blobs(result, labels);
     k.paint(frame, labels, result);
+    k.touch_up_color(result);
   }
   if (before && !result.blobs.empty())
     result.difference = mean_difference(frame, *before, result.blobs[0].box);

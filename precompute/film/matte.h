@@ -25,6 +25,16 @@ namespace vsprite {
 struct MatteConfig {
   float clip_low = 0.05f;   ///< alpha below this is 0
   float clip_high = 0.97f;  ///< alpha above this is 1
+
+  // What a person changes where a film comes out wrong. As they stand nothing is done for them.
+  float clip_black = 0;  ///< what was measured as this much becomes 0, 0..1, < clip_white ...
+  float clip_white = 1;  ///< ... and as this much 1; between them alpha is stretched
+  float edge = 0;        ///< px by which the edge moves outwards (below 0: inwards), -8..4
+  /// Of a coloured screen's tint: 0 stays, 1 goes where the subject nearby has none, 2 goes
+  /// everywhere, within the subject too.
+  float despill = 1;
+
+  bool operator==(const MatteConfig&) const = default;
 };
 
 /// A connected part of a matte. Parts that come within two cells (four pixels) of each other are

@@ -366,7 +366,8 @@ Result<bool> FilmReader::read(Frame& frame) {
 
 int FilmReader::surplus() const noexcept { return impl_->surplus; }
 
-Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted) {
+Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted,
+                                         const std::function<bool(double)>& go_on) {
   constexpr std::int64_t kRoom = std::int64_t{400} << 20;
   constexpr std::size_t kLeast = 16;
   std::vector<Frame> frames;
@@ -385,6 +386,7 @@ Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted) {
       if (!more) return more.error();
       if (!*more) break;
       if ((film.next - 1) % stride == 0) frames.push_back(frame);
+      if (go_on && !go_on(std::min(1.0, 1.0 * film.next / wanted))) return frames;
     }
     if (frames.size() >= std::min(kLeast, static_cast<std::size_t>(wanted) / 2)) break;
   }

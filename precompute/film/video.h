@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -103,7 +104,8 @@ class FilmReader {
   int surplus() const noexcept;
 
  private:
-  friend Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted);
+  friend Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted,
+                                                  const std::function<bool(double)>& go_on);
   struct Impl;
   explicit FilmReader(std::unique_ptr<Impl> impl) noexcept;
   std::unique_ptr<Impl> impl_;
@@ -112,7 +114,9 @@ class FilmReader {
 /// About `wanted` frames, spread evenly over the film, in order, each with its index. Key frames
 /// alone where there are enough of them (that costs next to nothing); otherwise the whole film is
 /// decoded and nearly all of it dropped. Takes at most 400 MB: fewer frames of large pictures.
+/// `go_on`, if any, is told the share that is done, and ends it where it says false.
 /// Errors: those of open() and read(), but a film that ends early is none.
-Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted);
+Result<std::vector<Frame>> sample_frames(const FilmSource& source, int wanted,
+                                         const std::function<bool(double)>& go_on = {});
 
 }  // namespace vsprite

@@ -15,16 +15,6 @@
 namespace vsprite {
 namespace {
 
-/// A picture as it is, or one pixel of a colour.
-Result<Image> background_of(const std::string& setting) {
-  if (setting.starts_with("#")) {
-    const auto color = parse_key(setting);
-    if (!color) return color.error();
-    return Image{1, 1, {color->red, color->green, color->blue, 255}};
-  }
-  return read_png(setting);
-}
-
 Json row_of(const KeyedFrame& keyed) {
   Json row = {{"frame", keyed.index}, {"parts", keyed.blobs.size()}};
   if (keyed.blobs.empty()) return row;
@@ -38,13 +28,24 @@ Json row_of(const KeyedFrame& keyed) {
 
 }  // namespace
 
+Result<Image> background_of(const Settings& settings) {
+  if (settings.background.starts_with("#")) {
+    const auto color = parse_key(settings.background);
+    if (!color) return color.error();
+    return Image{1, 1, {color->red, color->green, color->blue, 255}};
+  }
+  return read_png(settings.background);
+}
+
 Result<Json> preview_film(const Settings& settings, const std::string& film,
                           const std::string& output) {
   const auto key = parse_key(settings.key);
   if (!key) return key.error();
+  const auto matte = matte_of(settings);
+  if (!matte) return matte.error();
   ContactConfig config;
   config.overview = true;
-  auto background = background_of(settings.background);
+  auto background = background_of(settings);
   if (!background) return background.error();
   config.background = std::move(*background);
   auto sampled =
@@ -59,7 +60,7 @@ Result<Json> preview_film(const Settings& settings, const std::string& film,
     frames.push_back(std::move((*sampled)[(2 * k + 1) * sampled->size() / (2 * count)]));
   std::vector<KeyedFrame> keyed(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-    keyed[k] = Keyer(*screen, MatteConfig{}).key(frames[k], nullptr);
+    keyed[k] = Keyer(*screen, *matte).key(frames[k], nullptr);
   });
   const auto png = encode_png(make_contact_sheet(frames, keyed, config));
   if (!png) return png.error();

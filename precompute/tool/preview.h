@@ -8,8 +8,12 @@
 
 #include "tool/project.h"
 #include "tool/settings.h"
+#include "vsprite/image.h"
 
 namespace vsprite {
+
+/// settings.background as a picture: as it is, or one pixel of a colour. Errors: those of read_png.
+Result<Image> background_of(const Settings& settings);
 
 /// Keys settings.preview frames spread over `film` and writes them to the contact sheet `output`.
 /// Returns the background's reason and a row a frame: film frame, parts, area, border.

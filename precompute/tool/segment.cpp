@@ -58,12 +58,13 @@ struct KeyingItem {
 /// Pass 2: reads in order, keys in parallel, writes chunks in order.
 class KeyingPass {
  public:
-  KeyingPass(StageRun& run, FilmReader& reader, const ScreenModel& screen, const KeyedStore& store)
+  KeyingPass(StageRun& run, FilmReader& reader, const ScreenModel& screen, const MatteConfig& matte,
+             const KeyedStore& store)
       : run_(run),
         stride_(stride_of(run.settings)),
         ground_(stands_on_ground(run.settings)),
         reader_(reader),
-        keyers_([&screen] { return Keyer(screen, MatteConfig{}); }),
+        keyers_([&screen, matte] { return Keyer(screen, matte); }),
         store_(store) {}
 
   Result<std::vector<FrameSummary>> run() {
@@ -174,10 +175,10 @@ class KeyingPass {
 };
 
 Result<void> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
-                                 const std::vector<Frame>& sampled) {
+                                 const MatteConfig& matte, const std::vector<Frame>& sampled) {
   std::vector<Frame> frames;
   std::vector<KeyedFrame> keyed;
-  Keyer keyer(screen, MatteConfig{});
+  Keyer keyer(screen, matte);
   const std::size_t stride = std::max<std::size_t>(1, sampled.size() / (3 * kContactRows));
   for (std::size_t i = 0; i < sampled.size() && frames.size() < kContactRows; i += stride) {
     KeyedFrame frame = keyer.key(sampled[i], nullptr);
@@ -364,6 +365,8 @@ SubjectChoice subject_of(const std::string& text) {
 Result<Json> segment_film(StageRun& run, const std::string& origin) {
   const auto key = parse_key(run.settings.key);
   if (!key) return key.error();
+  const auto matte = matte_of(run.settings);
+  if (!matte) return matte.error();
   // The film is opened before any thread is started: opening forks.
   FilmSource source = source_of(run.settings, run.film);
   source.first = run.first_frame, source.end = run.end_frame;
@@ -380,10 +383,13 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (run.listener.note)
     for (const std::string& note : notes_on(info)) run.listener.note(note);
   if (run.listener.note) run.listener.note("background: " + screen->reason);
+  const bool keyed = screen->kind != KeyKind::None && screen->kind != KeyKind::Alpha;
+  if (run.listener.note && !keyed && *matte != MatteConfig{})
+    run.listener.note("clip-black, clip-white, edge and despill change what is keyed: nothing is");
 
   const auto store = KeyedStore::open(run.project, origin);
   if (!store) return store.error();
-  const auto summaries = KeyingPass(run, *reader, *screen, *store).run();
+  const auto summaries = KeyingPass(run, *reader, *screen, *matte, *store).run();
   if (!summaries) return summaries.error();
 
   const ExtractConfig config{.max_size = run.settings.draft
@@ -412,7 +418,8 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (!resumed) return resumed.error();
   if (auto made = make_folder(run.project.path("sprites")); !made) return made.error();
   if (auto cut = cut_sprites(run, *store, *extraction, *resumed); !cut) return cut.error();
-  if (auto sheet = write_contact_sheet(run, *screen, *sampled); !sheet) return sheet.error();
+  if (auto sheet = write_contact_sheet(run, *screen, *matte, *sampled); !sheet)
+    return sheet.error();
   if (auto wrote = write_file(run.project.path("samples.csv"), table); !wrote) return wrote.error();
   const auto dropped = write_dropped(run, *store, info, *summaries, *extraction);
   if (!dropped) return dropped.error();

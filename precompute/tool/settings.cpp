@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <numeric>
 
 #include "film/plate.h"
@@ -41,7 +42,7 @@ Error bad(std::string_view name, const std::string& text, const std::string& due
 /// The name, default and range of a number stand here once; text for people is made from them.
 struct Row {
   std::vector<Option> options;
-  std::vector<std::string> texts;  ///< owns what the views show
+  std::deque<std::string> texts;  ///< owns what the views show
 
   std::string_view keep(std::string text) {
     texts.push_back(std::move(text));
@@ -149,6 +150,19 @@ void add_stage_options(Row& t) {
     s.key = v;
     return {};
   };
+  t.real(
+      "clip-black", "A", &Settings::clip_black, 0, 0.9, false,
+      "so much coverage becomes none, and what is above is stretched: takes haze and shadows off",
+      kSegment);
+  t.real("clip-white", "A", &Settings::clip_white, 0.1, 1, false,
+         "so much coverage becomes all: closes holes and thin places", kSegment);
+  t.real("edge", "PX", &Settings::edge, -8, 4, false,
+         "moves the edge, film px: below 0 inwards, off a rim of screen; above 0 outwards",
+         kSegment);
+  t.real("despill", "X", &Settings::despill, 0, 2, false,
+         "a coloured screen's tint: 0 stays, 1 goes where the subject nearby has none, 2 goes "
+         "everywhere",
+         kSegment);
   t.text("matte", "FILE", &Settings::matte,
          "film or pictures beside the film whose brightness is the coverage: nothing is keyed",
          " segment build play doctor ");
@@ -197,8 +211,12 @@ void add_stage_options(Row& t) {
   t.whole("preview", "N", &Settings::preview, 0, 200,
           "no sprites, but N frames spread over the film on one contact sheet", " segment ");
   t.options.back().in_config = false;
+  t.flag("window", &Settings::window,
+         "pick the screen's colour and move four sliders over any frame, before the film is cut",
+         " segment ")
+      .in_config = false;
   t.text("background", "FILE|#RRGGBB", &Settings::background,
-         "with --preview: the game's background, a PNG or a colour", " segment ");
+         "with --preview, --window: the game's background, a PNG or a colour", " segment ");
   t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
     const auto color = v.starts_with("#") ? parse_key(v) : Result<KeyConfig>(KeyConfig{});
     if (!color || v.empty()) return bad("background", v, "a PNG file or #RRGGBB");
@@ -304,7 +322,7 @@ void add_use_options(Row& t) {
       " steer play ");
   t.whole("frames", "N", &Settings::frames, 0, 1000000000,
           "ticks to run; 0 = 12 s (steer), for ever (play and windows)",
-          " steer play label path points ");
+          " steer play label path points segment ");
   t.text("mode", "MODE", &Settings::mode,
          "which solved tables; default: the pack's own (steer), paper (dump)",
          " steer dump play report ", "paper|responsive");
@@ -317,11 +335,11 @@ void add_use_options(Row& t) {
       "ticks over which a jump is cross-faded; auto: only those dearer than the threshold, by cost",
       " play ", "auto|off|2|3|4|5|6");
   t.flag("headless", &Settings::headless, "no window: play the keys and end",
-         " play label path points ");
+         " play label path points segment ");
   t.text(
       "record", "FILE", &Settings::record,
       "film of the run (.mp4) or last picture (.png); steer: the run itself, for --replay (.vsr)",
-      " play label steer path points ");
+      " play label steer path points segment ");
   t.text("replay", "FILE", &Settings::replay,
          "makes a recorded run again; exit 3 at the first tick that comes out otherwise",
          " steer ");
@@ -455,9 +473,6 @@ void add_common_options(Row& t) {
 
 Row make_table() {
   Row t;
-  // Views into `texts` must stay: neither vector may grow beyond this.
-  t.texts.reserve(200);
-  t.options.reserve(100);
   add_stage_options(t);
   add_label_options(t);
   add_use_options(t);
@@ -511,6 +526,18 @@ FilmSource source_of(const Settings& settings, const std::string& film) {
   return source;
 }
 
+Result<MatteConfig> matte_of(const Settings& settings) {
+  if (settings.clip_black >= settings.clip_white)
+    return bad("clip-black", number(settings.clip_black),
+               "less than the " + number(settings.clip_white) + " of --clip-white");
+  MatteConfig config;
+  config.clip_black = static_cast<float>(settings.clip_black);
+  config.clip_white = static_cast<float>(settings.clip_white);
+  config.edge = static_cast<float>(settings.edge);
+  config.despill = static_cast<float>(settings.despill);
+  return config;
+}
+
 FloorChoice floor_of(const Settings& settings) {
   FloorChoice choice;
   choice.fitted = settings.horizon == "fit";
@@ -557,6 +584,35 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     }
   }
   return best;
+}
+
+std::string shell_word(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-./+:,@%") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string options_text(const Settings& settings, std::string_view verb) {
+  const Settings defaults;
+  std::string out;
+  for (const Option& option : all_options()) {
+    if (option.verbs == "*" || !takes(option, verb) || !option.in_config) continue;
+    std::string value = option.get(settings);
+    if (value == option.get(defaults)) continue;
+    out += " --" + std::string(option.name);
+    if (option.value.empty()) continue;
+    if (value.starts_with('"')) {
+      std::string plain;
+      for (std::size_t i = 1; i + 1 < value.size(); ++i) plain += value[value[i] == '\\' ? ++i : i];
+      value = std::move(plain);
+    }
+    out += " " + shell_word(value);
+  }
+  return out;
 }
 
 Result<void> apply_config(Settings& settings, const std::string& text, const std::string& path) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "film/floor.h"
+#include "film/matte.h"
 #include "film/source.h"
 #include "vsprite/result.h"
 
@@ -31,6 +32,10 @@ struct Settings {
 
   // Making a sprite.
   std::string key = "auto";
+  double clip_black = 0;
+  double clip_white = 1;
+  double edge = 0;  ///< px
+  double despill = 1;
   std::string matte;  ///< a film or pictures whose brightness is the coverage; empty: none
   double fps = 30;    ///< of pictures
   int max_size = 256;
@@ -164,11 +169,22 @@ Result<std::array<int, 2>> parse_size(const std::string& text);
 /// `film` with what the settings say about it.
 FilmSource source_of(const Settings& settings, const std::string& film);
 
+/// How the settings change what is keyed. Errors: BadSetting (clip-black is not below clip-white).
+Result<MatteConfig> matte_of(const Settings& settings);
+
 /// What the settings know of the floor.
 FloorChoice floor_of(const Settings& settings);
 
 /// The candidate with the fewest edits, or empty if none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates);
+
+/// The options of `verb` that differ from their defaults as words of a command line,
+/// ` --key '#2060c0' --edge -1.0`; of those that may stand in a config file and are not of every
+/// verb.
+std::string options_text(const Settings& settings, std::string_view verb);
+
+/// A word as a shell takes it back.
+std::string shell_word(const std::string& word);
 
 /// Applies `key = value` of a TOML text. Errors: BadContent, naming file, line and column.
 Result<void> apply_config(Settings& settings, const std::string& text, const std::string& path);

@@ -385,7 +385,9 @@ Json segment_settings(const Settings& s) {
       {"anchor", s.anchor},   {"mirror", s.mirror},
       {"smooth", s.smooth},   {"min-clip", s.min_clip},
       {"horizon", s.horizon}, {"ground-line", s.ground_line},
-      {"focal", s.focal}};
+      {"focal", s.focal},     {"clip-black", s.clip_black},
+      {"edge", s.edge},       {"clip-white", s.clip_white},
+      {"despill", s.despill}};
 }
 
 TransitionConfig transition_config(const Settings& settings) {

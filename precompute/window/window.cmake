@@ -9,7 +9,7 @@ endif()
 pkg_check_modules(WINDOW_DEPS REQUIRED IMPORTED_TARGET sdl2)
 pkg_check_modules(IMGUI REQUIRED imgui)
 find_path(IMGUI_BACKENDS imgui_impl_sdl.h PATHS ${IMGUI_INCLUDE_DIRS} PATH_SUFFIXES backends imgui/backends REQUIRED)
-add_library(vsprite_window STATIC window/label.cpp window/label_keys.cpp window/label_view.cpp
+add_library(vsprite_window STATIC window/key.cpp window/key_job.cpp window/key_view.cpp window/label.cpp window/label_keys.cpp window/label_view.cpp
   window/overlay.cpp window/path.cpp window/path_search.cpp window/path_view.cpp window/play.cpp
   window/play_view.cpp window/points.cpp window/points_view.cpp window/puppet_preview.cpp)
 target_include_directories(vsprite_window PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})

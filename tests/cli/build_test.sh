@@ -30,6 +30,27 @@ expect 0 vsprite doctor "a film.mp4" --json
 is_json /ok /film/usable_seconds /film/heading_seconds/left /film/camera_shift_px /findings/0/name
 prints '"name": "motion"'
 
+# The four corrections: neutral values change no byte, others do, and a value out of range is refused.
+expect 0 vsprite segment "a film.mp4" --work n.work --max-size 64 --clip-black 0 --clip-white 1 --edge 0 --despill 1
+diff -rq c.work/sprites n.work/sprites >/dev/null || fail "neutral corrections change a sprite"
+for change in "--clip-black 0.3" "--clip-white 0.7" "--edge -1" "--edge 1.5"; do
+  # shellcheck disable=SC2086
+  expect 0 vsprite segment "a film.mp4" --work n.work --max-size 64 $change
+  grep -q "segment: up to date" stderr && fail "$change: nothing was done"
+  diff -rq c.work/sprites n.work/sprites >/dev/null && fail "$change changes no sprite"
+done
+expect 0 vsprite segment "a film.mp4" --work n.work --max-size 64 --despill 0
+grep -q "segment: up to date" stderr && fail "--despill 0: nothing was done"
+expect 0 vsprite segment "a film.mp4" --preview 2 --edge -1 -o p.png
+prints "next: vsprite build 'a film.mp4' --edge -1.0"
+for bad in "--edge -8.1" "--edge 4.1" "--edge wide" "--clip-black 1" "--clip-white 0" "--despill 2.1"; do
+  # shellcheck disable=SC2086
+  expect 2 vsprite segment "a film.mp4" $bad
+  says "${bad% *}"; one_sentence
+done
+expect 2 vsprite segment "a film.mp4" --work n.work --clip-black 0.5 --clip-white 0.4
+says "--clip-white"; one_sentence
+
 # A draft: half the samples, each for two frames; small; the full build follows it in its place.
 expect 0 vsprite build "a film.mp4" -o d.vsp --draft --mirror --max-size 64 --json
 prints '"frames": 240'; prints '"samples": 240'
@@ -111,7 +132,7 @@ options() { vsprite help "$1" | sed -n 's/^ \{2,6\}\(-., \)\?--\([a-z0-9-]*\).*/
 keys=$(awk '/"settings": \{/ { on = 1 } on { print } /\}/ { on = 0 }' c.work/manifest.json)
 for stage in segment train transitions solve; do
   for option in $(comm -23 <(options $stage) <(options pack)); do
-    case $option in preview | background | threshold | save) continue ;; esac  # looked at only, or kept in the file
+    case $option in preview | background | window | headless | frames | record | threshold | save) continue ;; esac  # looked at only, or kept in the file
     echo "$keys" | grep -q "\"$option\":" || fail "--$option is no part of the key of $stage"
   done
 done

@@ -67,10 +67,22 @@ TEST(Plate, SeesBehindASubjectThatRests) {
 
 // The spread of all samples is then that of the subject, and says nothing of the screen.
 TEST(Plate, KeepsOutASubjectThatFillsMoreThanHalfOfThePicture) {
-  SyntheticFilm scene;
-  scene.subject[0] = 120, scene.subject[1] = 95, scene.subject[2] = 90;
+  const SyntheticFilm scene;
   std::vector<Frame> frames;
-  for (int i = 0; i < 16; ++i) frames.push_back(scene.frame(i, {{100.0 + i, 150, 150, 110}}));
+  for (int i = 0; i < 16; ++i) {
+    const Disc disc{100.0 + i, 150, 150, 110};
+    Image image = scene.image(i, {disc});
+    // Of many colours: the most frequent one is the screen's.
+    for (int y = 0; y < scene.height; ++y)
+      for (int x = 0; x < scene.width; ++x) {
+        if (scene.alpha(disc, x, y) < 1) continue;
+        std::uint8_t* p = image.rgba.data() + 4 * (y * scene.width + x);
+        p[0] = static_cast<std::uint8_t>(110 + 40 * ((x + y) / 16 % 3));
+        p[1] = static_cast<std::uint8_t>(80 + 35 * (x / 16 % 3));
+        p[2] = static_cast<std::uint8_t>(50 + 30 * (y / 16 % 3));
+      }
+    frames.push_back(to_frame(image, i));
+  }
   const auto screen = measure_screen(frames, {});
   ASSERT_TRUE(screen) << screen.error().message;
   EXPECT_LT(mean_plate_error(scene, *screen), 3);

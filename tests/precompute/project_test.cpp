@@ -155,6 +155,26 @@ TEST(Settings, ADumpedConfigurationReadsBackAsItself) {
   EXPECT_FALSE(apply_assignment(settings, "config=x"));
 }
 
+// What a verb takes and what is not as it was, in words that a shell hands over as they are.
+TEST(Settings, SayTheOptionsThatRepeatThem) {
+  Settings settings;
+  EXPECT_EQ(options_text(settings, "segment"), "");
+  for (const char* given :
+       {"key=#102030", "edge=-1.25", "mirror=true", "matte=a \"b\" c's.mp4", "alpha=0.5", "seed=7"})
+    ASSERT_TRUE(apply_assignment(settings, given)) << given;
+  EXPECT_EQ(options_text(settings, "segment"),
+            " --key '#102030' --edge -1.25 --matte 'a \"b\" c'\\''s.mp4' --mirror");
+  EXPECT_EQ(options_text(settings, "solve"), " --alpha 0.5");
+}
+
+TEST(Settings, ClipBlackStaysBelowClipWhite) {
+  Settings settings;
+  EXPECT_EQ(*matte_of(settings), MatteConfig{});
+  settings.clip_black = settings.clip_white = 0.5;
+  ASSERT_FALSE(matte_of(settings));
+  EXPECT_EQ(matte_of(settings).error().code, ErrorCode::BadSetting);
+}
+
 TEST(Places, FilmPackAndFolderLeadToTheSameWork) {
   EXPECT_EQ(find_work_folder("", "films/fish.mp4", ""), "fish.work");
   EXPECT_EQ(find_work_folder("", "films/fish.mp4", "out/f.vsp"), "out/f.work");

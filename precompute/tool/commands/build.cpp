@@ -9,6 +9,9 @@
 #include "tool/commands/verbs.h"
 #include "tool/preview.h"
 #include "tool/report.h"
+#ifdef VSPRITE_WINDOW
+#include "window/key.h"
+#endif
 #ifdef VSPRITE_MPI
 #include "tool/ranks.h"
 #endif
@@ -83,20 +86,6 @@ Result<int> run_one(const Settings& settings, Console& console, int stage,
   return 0;
 }
 
-}  // namespace
-
-std::string shell_word(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of(
-                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                          "0123456789_-./+:,@%") == std::string::npos;
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-namespace {
-
 Result<int> run_preview(const Settings& settings, Console& console) {
   const auto places = find_places(settings, kSegment);
   if (!places) return places.error();
@@ -119,14 +108,48 @@ Result<int> run_preview(const Settings& settings, Console& console) {
   }
   console.text(text + "written: " + output + "\n");
   console.document(*made);
-  console.next("vsprite build " + shell_word(settings.film) +
-               (settings.key == "auto" ? "" : " --key " + shell_word(settings.key)));
+  Settings next = settings;
+  next.output.clear();
+  console.next("vsprite build " + shell_word(settings.film) + options_text(next, "build"));
   return 0;
 }
+
+#ifdef VSPRITE_WINDOW
+Result<int> run_window(const Settings& settings, Console& console) {
+  const auto places = find_places(settings, kSegment);
+  if (!places) return places.error();
+  if (is_cast(places->film))
+    return Error{ErrorCode::BadFormat,
+                 places->film + ": is a cast, with --window a film is due: one of its clips"};
+  auto background = background_of(settings);
+  if (!background) return background.error();
+  KeyWindowOptions options;
+  options.background = std::move(*background);
+  premultiply(options.background);
+  options.headless = settings.headless;
+  options.frames = settings.headless && settings.frames == 0 ? 10 : settings.frames;
+  options.screenshot = settings.record;
+  options.saved = [&console](const std::string& what) { console.remark(what); };
+  const auto choice = key_window(settings, options);
+  if (!choice) return choice.error();
+  if (choice->run) return run_one(choice->settings, console, kSegment);
+  const std::string command = key_command(choice->settings);
+  console.text(command + "\n");
+  console.document({{"film", settings.film}, {"command", command}});
+  return 0;
+}
+#else
+Result<int> run_window(const Settings&, Console&) {
+  return Error{
+      ErrorCode::Unavailable,
+      "this vsprite was built without windows: look at what a setting does with --preview N"};
+}
+#endif
 
 }  // namespace
 
 Result<int> run_segment(const Settings& s, Console& c) {
+  if (s.window) return run_window(s, c);
   return s.preview > 0 ? run_preview(s, c) : run_one(s, c, kSegment);
 }
 Result<int> run_stage_verb(const Settings& s, Console& c, int stage) {

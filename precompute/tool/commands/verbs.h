@@ -61,7 +61,4 @@ Result<int> run_doctor(const Settings&, Console&);
 /// One stage of kStages, reported.
 Result<int> run_stage_verb(const Settings&, Console&, int stage);
 
-/// A word as a shell takes it back.
-std::string shell_word(const std::string& word);
-
 }  // namespace vsprite
