@@ -33,9 +33,7 @@ Result<void> run_hello(const games::Arguments& arguments) {
 
   Renderer& screen = session->renderer();
   std::optional<FrameCache> frames(*sprite);
-  const Vec2 middle{static_cast<float>(screen.width()) / 2,
-                    static_cast<float>(screen.height()) / 2};
-  Actor actor = make_actor(*sprite, middle, arguments.seed);
+  Actor actor = make_actor(*sprite, {640, 360}, arguments.seed);
   ActorFade fade;
   while (session->next_frame()) {
     if (auto rebuilt = games::take_rebuilt(watch, "hello", sprite->fps())) {

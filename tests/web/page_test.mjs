@@ -109,7 +109,7 @@ const tests = {
 
   async "a game's own sources are a page: hello"() {
     const page = exported("hello.html", "--template", join(templates, "hello.html"));
-    await visit(page, {width: 640, height: 360}, "", async browser => {
+    await visit(page, {width: 1280, height: 720}, "", async browser => {
       await browser.until("window.vsprite && vsprite.frames > 3", kSeconds);
       await browser.key("keyDown", "ArrowDown");
       await sleep(1000);
