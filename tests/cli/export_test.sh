@@ -136,6 +136,7 @@ for format in table gif; do expect 3 vsprite export face.vsp --to $format; one_s
 "$BIN/tiny_pack" long.vsp 100000 || fail "tiny_pack"
 expect 0 vsprite export long.vsp --to texturepacker-json --order film --samples 0
 prints "100000 samples of 100000"
+expect 3 vsprite export long.vsp --to table; says "raise --samples, or 0 for all"; one_sentence
 echo file >occupied
 expect 73 vsprite export ring.vsp --to table -o occupied; one_sentence
 expect 73 vsprite export ring.vsp --to webm -o occupied; one_sentence
