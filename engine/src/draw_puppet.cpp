@@ -29,7 +29,7 @@ using detail::Skin;
 namespace {
 
 constexpr int kRow = 1024;       // texels of a row of numbers, as in the shaders
-constexpr int kMostRows = 2048;  // of poses in a batch
+constexpr int kMostRows = 2048;  // of shares in a batch
 constexpr int kSlices = 1023;    // of 8,192 steps each: 23 bits, which floats and the buffer hold
 constexpr float kSteps = 8184;   // 8 x 1023: the usual fractions of it are whole numbers
 
@@ -92,7 +92,7 @@ Result<void> Renderer::Impl::set_up_puppets() {
   puppets.program.name = "puppet";
   puppets.program.id = *id;
   puppets.program.device = &device;
-  puppets.stream = gl::make_stream(device, 2, 4);
+  puppets.stream = gl::make_stream(device, 5, 4);
   return {};
 }
 
@@ -100,7 +100,7 @@ void Renderer::Impl::free_puppets() {
   for (Skin& skin : puppets.skins)
     for (const gl::Id id : {skin.page, skin.places})
       if (id != 0) gl::free_texture(device, id);
-  if (puppets.pose != 0) gl::free_texture(device, puppets.pose);
+  if (puppets.shares_texture != 0) gl::free_texture(device, puppets.shares_texture);
   if (puppets.program.id != 0) gl::free_program(device, puppets.program.id);
   gl::free_stream(device, puppets.stream);
 }
@@ -168,9 +168,8 @@ void Renderer::draw_puppet(const Puppet& puppet, const PuppetPose& pose, PuppetS
   if (m.target == nullptr || skin_id.id < 0) return;
   const Skin& skin = brush.skins[static_cast<std::size_t>(skin_id.id)];
   if (skin.points != pose.points.size() || skin.views != pose.shares.size()) return;
-  const std::size_t texels = skin.points + skin.views;
   m.select(Kind::Puppets, BlendMode::Over, skin_id.id);
-  if (rows_of(brush.poses.size() / 4 + texels) > kMostRows || brush.slices == kSlices) {
+  if (rows_of(brush.shares.size() / 4 + skin.views) > kMostRows || brush.slices == kSlices) {
     m.flush();
     m.select(Kind::Puppets, BlendMode::Over, skin_id.id);
   }
@@ -179,58 +178,59 @@ void Renderer::draw_puppet(const Puppet& puppet, const PuppetPose& pose, PuppetS
     brush.slices = 0;
   }
   ++brush.slices;
-  if (m.batch.empty()) brush.poses.clear();
+  if (m.batch.empty()) brush.shares.clear();
 
-  const auto base = static_cast<float>(brush.poses.size() / 4);
+  const auto base = static_cast<float>(brush.shares.size() / 4);
+  for (const float share : pose.shares) brush.shares.insert(brush.shares.end(), {share, 0, 0, 0});
   const auto [low, high] = std::minmax_element(pose.depth.begin(), pose.depth.end());
   const float far = *low, step = *high > *low ? kSteps / (*high - *low) : 0;
   const Vec2 at = m.to_frame(center);
   const float k = scale * m.camera.scale;
+  brush.placed.resize(skin.points), brush.steps.resize(skin.points);
   for (std::size_t i = 0; i < skin.points; ++i) {
     const Vec2 p = pose.points[i];
-    brush.poses.insert(brush.poses.end(), {on_grid(at.x + k * p.x), on_grid(at.y + k * p.y),
-                                           (pose.depth[i] - far) * step, 0.0f});
+    brush.placed[i] = {on_grid(at.x + k * p.x), on_grid(at.y + k * p.y)};
+    brush.steps[i] = (pose.depth[i] - far) * step;
   }
-  for (const float share : pose.shares) brush.poses.insert(brush.poses.end(), {share, 0, 0, 0});
 
-  const float* placed = &brush.poses[static_cast<std::size_t>(base) * 4];
   sort_faces(puppet, pose, brush);
   const float slice = static_cast<float>(brush.slices) * 8192;
   for (const std::uint32_t f : brush.order) {
     const Face& face = puppet.faces[f];
-    const auto name = [&](std::size_t c) { return static_cast<float>(face.corners[c]); };
-    if (face.count == 3) {
-      m.push({name(0), name(1), name(2), -1, base, 0, 0, slice});
-      continue;
-    }
+    const bool quad = face.count == 4;
+    const std::array<std::uint32_t, 4> c{face.corners[0], face.corners[1], face.corners[2],
+                                         face.corners[quad ? 3 : 2]};
+    const Vec2 p0 = brush.placed[c[0]], p1 = brush.placed[c[1]], p2 = brush.placed[c[2]],
+               p3 = brush.placed[c[3]];
     // As the software path cuts it: along the diagonal whose two halves turn alike.
-    const auto turns = [&](std::size_t a, std::size_t b, std::size_t c) {
-      const float *p = placed + 4 * face.corners[a], *q = placed + 4 * face.corners[b],
-                  *r = placed + 4 * face.corners[c];
-      return (double{q[0]} - p[0]) * (double{r[1]} - p[1]) >
-             (double{q[1]} - p[1]) * (double{r[0]} - p[0]);
+    const auto turns = [](Vec2 p, Vec2 q, Vec2 r) {
+      return (double{q.x} - p.x) * (double{r.y} - p.y) > (double{q.y} - p.y) * (double{r.x} - p.x);
     };
-    const bool first = turns(0, 1, 2) == turns(2, 3, 0);
+    const bool first = quad && turns(p0, p1, p2) == turns(p2, p3, p0);
     const bool convex =
-        first && turns(0, 1, 3) == turns(1, 2, 3) && turns(0, 1, 2) == turns(0, 1, 3);
-    m.push({name(0), name(1), name(2), name(3), base, first ? 1.0f : 2.0f, convex ? 1.0f : 0.0f,
-            slice});
+        first && turns(p0, p1, p3) == turns(p1, p2, p3) && turns(p0, p1, p2) == turns(p0, p1, p3);
+    const float cut = !quad ? 0.0f : first ? 1.0f : 2.0f;
+    m.push({p0.x, p0.y, p1.x, p1.y, p2.x, p2.y, p3.x, p3.y});
+    m.push(
+        {brush.steps[c[0]], brush.steps[c[1]], brush.steps[c[2]], quad ? brush.steps[c[3]] : 0.0f});
+    m.push({static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
+            static_cast<float>(c[3]), base, cut, convex ? 1.0f : 0.0f, slice});
   }
   ++m.stats.sprites;
 }
 
 void Renderer::Impl::flush_puppets() {
   const Skin& skin = puppets.skins[static_cast<std::size_t>(page)];
-  const std::size_t rows = rows_of(puppets.poses.size() / 4);
-  puppets.poses.resize(rows * kRow * 4, 0);
-  puppets.pose =
-      gl::upload_numbers(device, puppets.pose, kRow, static_cast<int>(rows), puppets.poses.data());
+  const std::size_t rows = rows_of(puppets.shares.size() / 4);
+  puppets.shares.resize(rows * kRow * 4, 0);
+  puppets.shares_texture = gl::upload_numbers(device, puppets.shares_texture, kRow,
+                                              static_cast<int>(rows), puppets.shares.data());
   detail::Program& program = puppets.program;
   gl::use(device, program.id);
   int unit = 0;
   for (const auto& [name, texture] :
        {std::pair{"page", skin.page}, std::pair{"places", skin.places},
-        std::pair{"pose", puppets.pose}}) {
+        std::pair{"shares", puppets.shares_texture}}) {
     gl::bind(device, unit, texture);
     gl::set_sampler(device, program.location(name), unit++);
   }
@@ -241,10 +241,10 @@ void Renderer::Impl::flush_puppets() {
   program.set("point_count", {static_cast<float>(skin.points)});
   gl::blend(device, blend);
   gl::use_depth(device, true);
-  gl::draw(device, puppets.stream, batch.data(), batch.size() / 8);
+  gl::draw(device, puppets.stream, batch.data(), batch.size() / 20);
   gl::use_depth(device, false);
   batch.clear();
-  puppets.poses.clear();
+  puppets.shares.clear();
   ++stats.batches;
 }
 

@@ -66,9 +66,11 @@ struct Skin {
 struct PuppetBrush {
   Program program;
   gl::Stream stream;
-  gl::Id pose = 0;
+  gl::Id shares_texture = 0;
   std::vector<Skin> skins;
-  std::vector<float> poses;  // of the batch
+  std::vector<float> shares;  // of the batch, a texel each
+  std::vector<Vec2> placed;   // control points of the puppet at hand, frame pixels
+  std::vector<float> steps;   // their depths
   std::vector<std::uint32_t> order;
   std::vector<float> keys;
   int slices = 0;  // of depth, used since it was cleared; 0: it has to be

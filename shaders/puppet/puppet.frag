@@ -3,16 +3,18 @@
 //
 // Backward mapping: the pixel's weights in its face (affine, or the inverse of the bilinear map), from
 // those its place in every view, from the views' shares its light: linear, premultiplied.
-// page: the views     places: for each view its control points, texels of the page, then its rectangle
+// shares: of the views, texels of each puppet     page: the views     places: for each view its control points, texels of the page, then its rectangle
+flat in vec4 places_ab, places_cd;
 flat in vec4 points;
 flat in vec4 kind;
-flat in vec2 a, b, c, d;
 flat in vec4 depths;
 in vec4 nearby;
-uniform sampler2D page, places, pose;
+uniform sampler2D page, places, shares;
 uniform vec2 page_size;
 uniform float view_count, point_count;
 out vec4 color;
+
+vec2 a, b, c, d;
 
 float cross2(vec2 p, vec2 q) { return p.x * q.y - p.y * q.x; }
 
@@ -53,6 +55,7 @@ void bilinear(vec2 p, inout vec4 w) {
 }
 
 void main() {
+  a = places_ab.xy, b = places_ab.zw, c = places_cd.xy, d = places_cd.zw;
   vec2 pixel = gl_FragCoord.xy;
   vec4 w = nearby;
   if (kind.y < 0.5) w = affine(pixel);
@@ -60,7 +63,7 @@ void main() {
 
   vec4 light = vec4(0.0);
   for (float v = 0.0; v < view_count; v += 1.0) {
-    float share = texel_of(pose, kind.x + point_count + v).x;
+    float share = view_count < 1.5 ? 1.0 : texel_of(shares, kind.x + v).x;
     if (share <= 0.0) continue;
     float row = v * (point_count + 1.0);
     vec2 at = w.x * texel_of(places, row + points.x).xy + w.y * texel_of(places, row + points.y).xy +
