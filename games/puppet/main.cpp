@@ -76,16 +76,32 @@ void draw_pad(Renderer& screen, const Stage& stage, const Puppet& face) {
   screen.draw_text("turned \xe2\x86\x92", {kCorner.x + kSide / 2, kCorner.y + kSide + 56}, small);
 }
 
+// Whose arm it is, softly shaded as the arm is.
 void draw_torso(Renderer& screen) {
-  const Color shirt = srgb(0x3a7a6c), skin = srgb(0xe9b189);
-  screen.draw_shape(
-      box({kShoulder.x - 190, kShoulder.y - 46}, {kShoulder.x + 44, kShoulder.y + 420}, shirt, 46));
-  screen.draw_shape(
-      box({kShoulder.x - 104, kShoulder.y - 96}, {kShoulder.x - 40, kShoulder.y - 20}, skin, 24));
-  screen.draw_shape(disc({kShoulder.x - 84, kShoulder.y - 160}, 78, srgb(0x7a4a2a)));
-  screen.draw_shape(disc({kShoulder.x - 66, kShoulder.y - 144}, 66, skin));
-  screen.draw_shape(disc({kShoulder.x - 40, kShoulder.y - 150}, 6, srgb(0x3a2a20)));
-  screen.draw_shape(disc({kShoulder.x + 2, kShoulder.y - 136}, 10, skin));
+  const Color ink = srgb(0x3a2a20), skin = srgb(0xe9b189), shade = srgb(0xd2966b),
+              hair = srgb(0x6b4227);
+  const auto at = [](float x, float y) { return Vec2{kShoulder.x + x, kShoulder.y + y}; };
+  const auto soft = [&](Vec2 center, Vec2 half_size, Color color) {
+    screen.draw_shape({.center = center,
+                       .half_size = half_size,
+                       .radius = std::min(half_size.x, half_size.y),
+                       .feather = 24,
+                       .color = color});
+  };
+  screen.draw_shape(box(at(-104, -96), at(-40, -20), shade, 24));
+  screen.draw_shape(box(at(-190, -46), at(44, 420), srgb(0x3a7a6c), 56));
+  screen.draw_shape(disc(at(-84, -160), 78, hair));
+  screen.draw_shape(disc(at(2, -136), 10, skin));
+  screen.draw_shape(disc(at(-66, -144), 66, skin));
+  screen.draw_shape(box(at(-130, -222), at(-26, -188), hair, 17));  // the fringe
+  screen.draw_shape(box(at(-136, -206), at(-104, -146), hair, 16));
+  screen.draw_shape(disc(at(-98, -138), 13, shade));
+  screen.draw_shape(disc(at(-96, -138), 10, skin));
+  screen.draw_shape(disc(at(-36, -148), 6, ink));
+  screen.draw_shape(line(at(-48, -168), at(-26, -170), 5, hair));
+  screen.draw_shape(line(at(-36, -110), at(-26, -105), 4, srgb(0x9c4a3a)));
+  screen.draw_shape(line(at(-26, -105), at(-14, -110), 4, srgb(0x9c4a3a)));
+  soft(at(-56, -118), {18, 14}, srgb(0xe07060, 0.35f));
 }
 
 void draw_scene(Renderer& screen, const Stage& stage, const Skins& skins, const Puppet& face) {
