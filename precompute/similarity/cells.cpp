@@ -120,7 +120,7 @@ CellImage make_cells(const SampleRow& row, const Image& image, double cell, int 
       result.coverage += static_cast<std::uint32_t>(alpha);
       cells[4 * c] = static_cast<std::uint8_t>(alpha);
       for (std::size_t k = 0; k < 3; ++k) {
-        cells[4 * c + k + 1] = static_cast<std::uint8_t>((sum.color[k] + sum.alpha / 2) / sum.alpha);
+        cells[4 * c + k + 1] = static_cast<std::uint8_t>(sum.color[k] / (kColorStep * sum.alpha));
       }
     }
     if (!shows) continue;

@@ -24,6 +24,7 @@ inline constexpr int kBlockSide = 4;                         ///< cells
 inline constexpr int kBlockCells = kBlockSide * kBlockSide;  ///< 16
 inline constexpr int kBlockBytes = 4 * kBlockCells;          ///< a cache line
 inline constexpr int kMaxGrid = 64;                          ///< cells a side
+inline constexpr int kColorStep = 2;                         ///< code values a step of a cell's colour
 inline constexpr int kBlockWords = kMaxGrid * kMaxGrid / kBlockCells / 64;
 
 /// Storage that starts on a cache line, so that no block straddles two.
@@ -44,7 +45,8 @@ struct LineAllocator {
 /// One picture. Blocks are numbered along the set's block order.
 struct CellImage {
   std::array<std::uint64_t, kBlockWords> seen{};  ///< bit k: block k shows something
-  /// (blocks seen, 16, 4): coverage 0..255, then red, green, blue, straight, 0 where nothing shows.
+  /// (blocks seen, 16, 4): coverage 0..255, then red, green, blue, straight, in whole steps 0..127
+  /// so that two squares fit an i16; 0 where nothing shows.
   std::vector<std::uint8_t, LineAllocator<std::uint8_t>> cells;
   std::uint32_t coverage = 0;  ///< sum of coverage
 };

@@ -32,7 +32,8 @@ detail::PairTable make_table(const FeatureSet& set, const Classifier& classifier
   const double unit = table.per_area ? 1 : 255;
   table.alpha_weight = static_cast<float>(classifier.weights[kAlpha] / classifier.threshold / unit);
   table.color_weight =
-      std::max(classifier.weights[kColor] / classifier.threshold / std::sqrt(unit), kLeastWeight);
+      std::max(kColorStep * classifier.weights[kColor] / classifier.threshold / std::sqrt(unit),
+               kLeastWeight);
   table.fade = static_cast<float>(set.v0);
   table.limit = limit * (1 + kMargin);
   const int squares = set.grid / 8 * (set.grid / 8);

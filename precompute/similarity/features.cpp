@@ -184,7 +184,7 @@ void detail::set_pixel_features(const FeatureSet& set, int i, int j, std::uint64
                           set.samples[static_cast<std::size_t>(j)].cells.coverage;
     unit = coverage > 0 ? static_cast<double>(coverage) / 2 : 1;
   }
-  f[kColor] = static_cast<float>(std::sqrt(static_cast<double>(color) / unit));
+  f[kColor] = static_cast<float>(kColorStep * std::sqrt(static_cast<double>(color) / unit));
   f[kAlpha] = static_cast<float>(static_cast<double>(alpha) / unit);
 }
 

@@ -4,7 +4,7 @@
 // similarity/features.h - how two samples differ: the six features of NIPS section 2.
 //
 // Pictures are compared aligned at their anchors, on a common grid. With speed s, heading h, mean
-// colour m, area A, and a cell's coverage a (0..1) and colour c (sRGB code values, 0..255):
+// colour m, area A, and a cell's coverage a (0..1) and colour c (sRGB code values in steps of 2):
 //
 //                raw: the paper's                                unit, range          per area:
 //                over
@@ -104,8 +104,8 @@ FeatureVector features(const FeatureSet& set, int i, int j) noexcept;
 
 namespace detail {
 
-/// Puts the features of the pixels into `f`. `color`: the sum with coverage 0..255, as is
-/// `alpha`, of |a_i - a_j|. Both features rise with their argument.
+/// Puts the features of the pixels into `f`. `color`: PairSums::color; `alpha`: the sum of
+/// |a_i - a_j|, coverage 0..255. Both features rise with their argument.
 void set_pixel_features(const FeatureSet& set, int i, int j, std::uint64_t color,
                         std::uint32_t alpha, FeatureVector& f) noexcept;
 

@@ -48,7 +48,7 @@ HWY_INLINE void add_block(const std::uint8_t* a, const std::uint8_t* b, Accumula
   }
 }
 
-HWY_INLINE void take_color(Accumulator&) {}
+HWY_INLINE void widen(Accumulator&) {}
 HWY_INLINE std::uint64_t color_sum(const Accumulator& sum) { return sum.color; }
 HWY_INLINE std::uint32_t overlap_sum(const Accumulator& sum) { return sum.overlap; }
 
@@ -60,73 +60,130 @@ using Cells = hn::Repartition<std::uint32_t, Bytes>;  // a lane a cell
 using Halves = hn::Repartition<std::uint16_t, Bytes>;
 using Totals = hn::Repartition<std::uint64_t, Bytes>;
 
-// A lane takes at most 4 x 255 x 3 x 255^2 from a block: 21 blocks add less than 2^32.
+// A cell adds at most 255 x 3 x 127^2 of colour and 255 of overlap to a lane: 256 stay below 2^32
+// and 2^16, which is every block where a register holds one, else a word of CellImage::seen.
+constexpr bool kWiden = hn::MaxLanes(Bytes()) < kBlockBytes;
+
 struct Accumulator {
-  hn::Vec<Cells> color;   // since the last check
-  hn::Vec<Totals> total;  // before it
-  hn::Vec<Cells> overlap;
+  hn::Vec<Cells> color;
+  hn::Vec<Halves> overlap;  // every weight twice
+  hn::Vec<Totals> wide_color;
+  hn::Vec<Cells> wide_overlap;
 };
 
 HWY_INLINE void clear(Accumulator& sum) {
-  sum.color = sum.overlap = hn::Zero(Cells());
-  sum.total = hn::Zero(Totals());
+  sum.color = sum.wide_overlap = hn::Zero(Cells());
+  sum.overlap = hn::Zero(Halves());
+  sum.wide_color = hn::Zero(Totals());
 }
 
-// Red, green and blue squared and added up, a cell a lane; the first byte is left out.
-HWY_INLINE hn::Vec<Cells> color_squares(hn::Vec<Bytes> apart) {
-  const Cells cells;
-  const auto red_blue = hn::ShiftRight<8>(hn::BitCast(Halves(), apart));
-  const auto green = hn::And(hn::BitCast(cells, apart), hn::Set(cells, 0x00ff0000u));
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
-  // Adds neighbours up here: pmaddwd.
-  const hn::RebindToSigned<Halves> i16;
-  const hn::RebindToSigned<Cells> i32;
-  auto unused = hn::Zero(i32);
-  const auto g = hn::BitCast(i16, green), rb = hn::BitCast(i16, red_blue);
-  const auto sum = hn::ReorderWidenMulAccumulate(i32, g, g, hn::Zero(i32), unused);
-  return hn::BitCast(cells, hn::ReorderWidenMulAccumulate(i32, rb, rb, sum, unused));
+// Squares of neighbouring bytes, added up by two. Each is at most 127, so a sum is a positive i16.
+HWY_INLINE hn::Vec<Halves> squares_by_two(hn::Vec<Bytes> v) {
+  const Halves d;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  return hn::Vec<Halves>{_mm512_maddubs_epi16(v.raw, v.raw)};
+#elif HWY_TARGET == HWY_AVX2
+  return hn::Vec<Halves>{_mm256_maddubs_epi16(v.raw, v.raw)};
+#elif HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SSSE3
+  return hn::Vec<Halves>{_mm_maddubs_epi16(v.raw, v.raw)};
 #else
-  const auto squares = hn::BitCast(cells, hn::Mul(red_blue, red_blue));
-  const auto g = hn::ShiftRight<16>(green);
-  return hn::Add(hn::Add(hn::ShiftRight<16>(squares), hn::And(squares, hn::Set(cells, 0xffffu))),
-                 hn::Mul(g, g));
+  const auto pairs = hn::BitCast(d, v);
+  const auto even = hn::And(pairs, hn::Set(d, 0xffu)), odd = hn::ShiftRight<8>(pairs);
+  return hn::Add(hn::Mul(even, even), hn::Mul(odd, odd));
 #endif
 }
 
-// `kLess`: taken off every difference, in code values.
+// `kLess`: taken off every difference, in steps of colour.
 template <int kLess>
 HWY_INLINE void add_block(const std::uint8_t* HWY_RESTRICT a, const std::uint8_t* HWY_RESTRICT b,
                           Accumulator& sum) {
   const Bytes d;
-  const Cells cells;
+  const Halves halves;
+  const hn::RebindToSigned<Halves> i16;
+  const hn::RebindToSigned<Cells> i32;
+  alignas(16) static constexpr std::uint8_t kWeightTwice[16] = {0, 0x80, 0, 0x80, 4,  0x80, 4,  0x80,
+                                                                8, 0x80, 8, 0x80, 12, 0x80, 12, 0x80};
+  const auto twice = hn::LoadDup128(d, kWeightTwice);
+  const auto colors = hn::BitCast(d, hn::Set(Cells(), 0xffffff00u));
   for (std::size_t c = 0; c < kBlockBytes; c += hn::Lanes(d)) {
     const auto x = hn::Load(d, a + c), y = hn::Load(d, b + c);
     const auto smaller = hn::Min(x, y);
-    auto apart = hn::Sub(hn::Max(x, y), smaller);
+    auto apart = hn::And(hn::Sub(hn::Max(x, y), smaller), colors);
     if constexpr (kLess > 0) apart = hn::SaturatedSub(apart, hn::Set(d, std::uint8_t{kLess}));
-    const auto weight = hn::And(hn::BitCast(cells, smaller), hn::Set(cells, 0xffu));
-    sum.color = hn::Add(sum.color, hn::Mul(weight, color_squares(apart)));
+    const auto weight = hn::BitCast(halves, hn::TableLookupBytesOr0(smaller, twice));
+    auto odd = hn::Zero(i32);
+    const auto color = hn::ReorderWidenMulAccumulate(
+        i32, hn::BitCast(i16, squares_by_two(apart)), hn::BitCast(i16, weight),
+        hn::BitCast(i32, sum.color), odd);
+    sum.color = hn::BitCast(Cells(), hn::Add(color, odd));
     sum.overlap = hn::Add(sum.overlap, weight);
   }
 }
 
-// Before 21 blocks are added.
-HWY_INLINE void take_color(Accumulator& sum) {
+HWY_INLINE hn::Vec<Totals> wide_color(const Accumulator& sum) {
   const Totals d;
   const auto color = hn::BitCast(d, sum.color);
-  const auto low = hn::And(color, hn::Set(d, 0xffffffffu));
-  sum.total = hn::Add(sum.total, hn::Add(low, hn::ShiftRight<32>(color)));
-  sum.color = hn::Zero(Cells());
+  return hn::Add(hn::And(color, hn::Set(d, 0xffffffffu)), hn::ShiftRight<32>(color));
+}
+
+HWY_INLINE hn::Vec<Cells> wide_overlap(const Accumulator& sum) {
+  return hn::And(hn::BitCast(Cells(), sum.overlap), hn::Set(Cells(), 0xffffu));
+}
+
+// After 64 blocks.
+HWY_INLINE void widen(Accumulator& sum) {
+  if constexpr (kWiden) {
+    sum.wide_color = hn::Add(sum.wide_color, wide_color(sum));
+    sum.wide_overlap = hn::Add(sum.wide_overlap, wide_overlap(sum));
+    sum.color = hn::Zero(Cells());
+    sum.overlap = hn::Zero(Halves());
+  }
 }
 
 HWY_INLINE std::uint64_t color_sum(const Accumulator& sum) {
-  return hn::GetLane(hn::SumOfLanes(Totals(), sum.total));
+  auto color = wide_color(sum);
+  if constexpr (kWiden) color = hn::Add(color, sum.wide_color);
+  return hn::GetLane(hn::SumOfLanes(Totals(), color));
 }
 
 HWY_INLINE std::uint32_t overlap_sum(const Accumulator& sum) {
-  return hn::GetLane(hn::SumOfLanes(Cells(), sum.overlap));
+  auto overlap = wide_overlap(sum);
+  if constexpr (kWiden) overlap = hn::Add(overlap, sum.wide_overlap);
+  return hn::GetLane(hn::SumOfLanes(Cells(), overlap));
 }
 
+#endif
+
+// The blocks of a word that both pictures fill, by their places among those of each.
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL  // where pext is a fast instruction
+class Walk {
+ public:
+  HWY_INLINE Walk(std::uint64_t in_a, std::uint64_t in_b)
+      : a_(_pext_u64(in_b, in_a)), b_(_pext_u64(in_a, in_b)) {}
+  HWY_INLINE bool left() const { return a_ != 0; }
+  HWY_INLINE std::size_t a() const { return static_cast<std::size_t>(std::countr_zero(a_)); }
+  HWY_INLINE std::size_t b() const { return static_cast<std::size_t>(std::countr_zero(b_)); }
+  HWY_INLINE void next() { a_ &= a_ - 1, b_ &= b_ - 1; }
+
+ private:
+  std::uint64_t a_, b_;
+};
+#else
+class Walk {
+ public:
+  HWY_INLINE Walk(std::uint64_t in_a, std::uint64_t in_b)
+      : in_a_(in_a), in_b_(in_b), both_(in_a & in_b) {}
+  HWY_INLINE bool left() const { return both_ != 0; }
+  HWY_INLINE std::size_t a() const { return before(in_a_); }
+  HWY_INLINE std::size_t b() const { return before(in_b_); }
+  HWY_INLINE void next() { both_ &= both_ - 1; }
+
+ private:
+  HWY_INLINE std::size_t before(std::uint64_t in) const {
+    return static_cast<std::size_t>(std::popcount(in & ((both_ & (~both_ + 1)) - 1)));
+  }
+  std::uint64_t in_a_, in_b_, both_;
+};
 #endif
 
 // False as soon as the colour sum exceeds `budget`; `sums` are then of no use.
@@ -139,19 +196,18 @@ HWY_INLINE bool compare(const CellImage& a, const CellImage& b, std::uint64_t bu
   int pending = 0;
   for (std::size_t w = 0; w < a.seen.size(); ++w) {
     const std::uint64_t in_a = a.seen[w], in_b = b.seen[w];
-    for (std::uint64_t both = in_a & in_b; both != 0; both &= both - 1) {
-      const std::uint64_t below = (both & (~both + 1)) - 1;
-      add_block<0>(cells_a + kBlockBytes * std::popcount(in_a & below),
-                   cells_b + kBlockBytes * std::popcount(in_b & below), sum);
-      if (++pending < kBlocksBetweenChecks) continue;
+    Walk walk(in_a, in_b);
+    while (walk.left()) {
+      add_block<0>(cells_a + kBlockBytes * walk.a(), cells_b + kBlockBytes * walk.b(), sum);
+      walk.next();
+      if (!kBudget || ++pending < kBlocksBetweenChecks) continue;
       pending = 0;
-      take_color(sum);
-      if (kBudget && color_sum(sum) > budget) return false;
+      if (color_sum(sum) > budget) return false;
     }
+    widen(sum);
     cells_a += kBlockBytes * std::popcount(in_a);
     cells_b += kBlockBytes * std::popcount(in_b);
   }
-  take_color(sum);
   sums.color = color_sum(sum);
   sums.overlap = overlap_sum(sum);
   return sums.color <= budget;
@@ -252,7 +308,7 @@ HWY_NOINLINE void filter_coarse(const PairTable& t, std::size_t i, Left& left) {
 
 // Whether the colour sum of the most telling blocks stays within `budget`, by their means: with
 // least coverages u, v and 16 cells a block, sum of min(a, b) |c - d|^2 >= 16 min(u, v) |mean c -
-// mean d|^2 (Jensen). Two rounded means may lie one code value further apart than the means do.
+// mean d|^2 (Jensen). Two rounded means may lie one step further apart than the means do.
 HWY_NOINLINE bool within_by_means(const std::uint8_t* HWY_RESTRICT a,
                                   const std::uint8_t* HWY_RESTRICT b, std::size_t size,
                                   std::uint64_t budget) {
@@ -261,7 +317,6 @@ HWY_NOINLINE bool within_by_means(const std::uint8_t* HWY_RESTRICT a,
   for (std::size_t block = 0; block < size; block += kBlockBytes) {
     add_block<1>(a + block, b + block, sum);
   }
-  take_color(sum);
   return kBlockCells * color_sum(sum) <= budget;
 }
 

@@ -17,7 +17,7 @@ namespace vsprite::detail {
 
 /// What two pictures have in common.
 struct PairSums {
-  std::uint64_t color = 0;    ///< sum of min(a_i, a_j) |c_i - c_j|^2
+  std::uint64_t color = 0;    ///< sum of min(a_i, a_j) |c_i - c_j|^2, in steps
   std::uint32_t overlap = 0;  ///< sum of min(a_i, a_j); sum |a_i - a_j| = coverage - 2 overlap
 };
 PairSums compare_cells(const CellImage& a, const CellImage& b) noexcept;

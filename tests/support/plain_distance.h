@@ -16,7 +16,7 @@
 
 namespace vsprite::testing {
 
-/// A sample's grid in full: (4, grid, grid) coverage, red, green, blue; 0 where nothing shows.
+/// A sample's grid in full: (4, grid, grid) coverage, red, green, blue in steps; 0 where nothing shows.
 inline std::vector<std::uint8_t> dense_cells(const FeatureSet& set, std::size_t i) {
   const CellImage& image = set.samples[i].cells;
   const auto side = static_cast<std::size_t>(set.grid), across = side / kBlockSide;
@@ -42,9 +42,11 @@ inline CellImage pack_cells(const std::vector<std::uint8_t>& planes, int grid) {
   row.anchor_x = row.anchor_y = grid / 2;
   Image image{grid, grid, std::vector<std::uint8_t>(planes.size())};
   for (std::size_t p = 0; p < planes.size() / 4; ++p) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      image.rgba[4 * p + k] = planes[(k + 1) % 4 * (planes.size() / 4) + p];
+    for (std::size_t k = 0; k < 3; ++k) {
+      image.rgba[4 * p + k] =
+          static_cast<std::uint8_t>(kColorStep * planes[(k + 1) * (planes.size() / 4) + p]);
     }
+    image.rgba[4 * p + 3] = planes[p];
   }
   return make_cells(row, image, 1, grid);
 }
@@ -121,7 +123,7 @@ inline FeatureSet grown(const FeatureSet& set, std::size_t count) {
       for (std::size_t p = side * side; p < planes.size(); ++p) {
         if (planes[p % (side * side)] == 0) continue;
         const int value = planes[p] * gain / 100 + static_cast<int>(random.below(5)) - 2;
-        planes[p] = static_cast<std::uint8_t>(std::clamp(value, 0, 255));
+        planes[p] = static_cast<std::uint8_t>(std::clamp(value, 0, 127));
       }
       const float pace = 0.9f + 0.02f * static_cast<float>(take % 10);
       s.velocity_x *= pace, s.velocity_y *= pace;
