@@ -9,6 +9,7 @@
 #include <fstream>
 #include <thread>
 
+#include "support/process.h"
 #include "support/temp_folder.h"
 #include "support/tiny_sprite.h"
 #include "vsprite/pack.h"
@@ -138,19 +139,16 @@ TEST_F(Reload, AWatchMayBeDroppedInTheMiddleOfACheck) {
   }
 }
 
-std::size_t open_files() {
-  const std::filesystem::directory_iterator all("/proc/self/fd"), end;
-  return static_cast<std::size_t>(std::distance(all, end));
-}
-
-TEST_F(Reload, AThousandReloadsLeaveNoFileOpen) {
+TEST_F(Reload, AThousandReloadsLeaveNothingBehind) {
   save("old");
   const auto bytes = testing::read_bytes(path_);
   Sprite sprite = *load_pack(path_);
   PackWatch watch(path_);
   Actor actor = make_actor(sprite);
-  const std::size_t before = open_files();
+  const std::size_t files = testing::open_files();
+  long pages = 0;
   for (int round = 0; round < 1000; ++round) {
+    if (round == 200) pages = testing::resident_pages();
     const std::string fresh = folder_.file("fresh.vsp");
     std::ofstream(fresh, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()),
@@ -162,7 +160,25 @@ TEST_F(Reload, AThousandReloadsLeaveNoFileOpen) {
     sprite = std::move(**rebuilt);
     step(sprite, actor);
   }
-  EXPECT_EQ(open_files(), before);
+  EXPECT_EQ(testing::open_files(), files);
+  EXPECT_LE(testing::resident_pages(), pages + 256);
+}
+
+TEST_F(Reload, AThousandOpeningsLeaveNothingBehind) {
+  save("hero");
+  const std::size_t files = testing::open_files();
+  long pages = 0;
+  for (int round = 0; round < 1000; ++round) {
+    if (round == 200) pages = testing::resident_pages();
+    const Result<Sprite> sprite = load_pack(path_);
+    ASSERT_TRUE(sprite);
+    FrameCache frames(*sprite, 1 << 20);
+    Actor actor = make_actor(*sprite);
+    step(*sprite, actor);
+    ASSERT_GT(frames.frame(actor.sample).width, 0);
+  }
+  EXPECT_EQ(testing::open_files(), files);
+  EXPECT_LE(testing::resident_pages(), pages + 256);
 }
 
 }  // namespace

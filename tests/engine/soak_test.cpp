@@ -5,23 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
 #include <random>
 
 #include "support/naive_actions.h"
 #include "support/plain_actor.h"
+#include "support/process.h"
 #include "vsprite/action.h"
 
 namespace vsprite {
 namespace {
 
 constexpr std::uint64_t kHour = 3600 * 30;
-
-long resident_pages() {
-  long size = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> size >> resident;
-  return resident;
-}
 
 bool equal(const Actor& a, const Actor& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
@@ -32,7 +26,7 @@ TEST(Soak, AThousandHoursOfRandomSteeringNeitherFreezeNorDrift) {
   Actor actor = make_actor(sprite, {}, 0, 1), plain = actor;
   std::mt19937 random(1);
   std::uint64_t frozen = 0, apart = 0;
-  const long before = resident_pages();
+  const long before = testing::resident_pages();
   for (std::uint64_t hour = 0; hour < 1000; ++hour) {
     for (std::uint64_t t = 0; t < kHour;) {
       const auto wanted = static_cast<Direction>(random() % kDirectionCount);
@@ -50,7 +44,7 @@ TEST(Soak, AThousandHoursOfRandomSteeringNeitherFreezeNorDrift) {
   EXPECT_EQ(actor.tick, 1000 * kHour);
   EXPECT_EQ(frozen, 0u);
   EXPECT_EQ(apart, 0u);
-  EXPECT_LE(resident_pages(), before + 64);
+  EXPECT_LE(testing::resident_pages(), before + 64);
 }
 
 TEST(Soak, AThousandChangesASecondNeverLeaveTheTransitions) {

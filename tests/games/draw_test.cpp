@@ -6,13 +6,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "support/gl_stage.h"
+#include "support/process.h"
 #include "support/temp_folder.h"
 #include "support/tiny_sprite.h"
 #include "vsprite/compose.h"
@@ -281,24 +281,16 @@ TEST_F(DrawActors, AFadingActorIsDrawnFromBothPictures) {
   }
 }
 
-/// Resident memory of this process, bytes.
-std::size_t resident() {
-  std::ifstream in("/proc/self/statm");
-  std::size_t pages = 0, held = 0;
-  in >> pages >> held;
-  return held * 4096;
-}
-
 TEST_F(Draw, AThousandSizesLeaveNothingBehind) {
   const Image picture = noise_picture(20, 20, 3);
-  std::size_t before = 0;
+  long before = 0;
   for (int i = 0; i < 1000; ++i) {
-    if (i == 200) before = resident();
+    if (i == 200) before = testing::resident_pages();
     renderer().begin_frame(16 + i * 7 % 61, 16 + i * 5 % 53);
     renderer().draw_sprite({.image = picture, .key = {7, 1}, .position = {4, 4}});
     renderer().end_frame(64 + i % 3, 48);
   }
-  EXPECT_LT(resident(), before + (std::size_t{4} << 20));
+  EXPECT_LT(testing::resident_pages(), before + 1024);
   EXPECT_EQ(renderer().stats().uploads, 0u);
 }
 
@@ -452,12 +444,6 @@ TEST_F(Draw, NamesTheLineOfABadShader) {
   EXPECT_NE(bad.error().message.find("nonsense"), std::string::npos) << bad.error().message;
 }
 
-long resident_pages() {
-  long size = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> size >> resident;
-  return resident;
-}
-
 TEST_F(Draw, OpensAndClosesAHundredTimesWithoutGrowth) {
   const Image picture = noise_picture(200, 200, 5);
   long before = 0;
@@ -467,9 +453,9 @@ TEST_F(Draw, OpensAndClosesAHundredTimesWithoutGrowth) {
     renderer().draw_sprite({.image = picture});
     renderer().draw_text("again", {0, 0});
     renderer().end_frame();
-    if (i == 30) before = resident_pages();
+    if (i == 30) before = testing::resident_pages();
   }
-  EXPECT_LT(resident_pages() - before, 1024) << "pages of 4 KiB in 69 rounds";
+  EXPECT_LT(testing::resident_pages() - before, 1024) << "pages of 4 KiB in 69 rounds";
 }
 
 TEST(DrawWithoutContext, SaysSo) {
