@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Squares = hn::CappedTag<std::int16_t, 32>;  // coarse ones, see coarse_difference
 
 constexpr std::size_t kAhead = 4;  // pairs between a prefetch and its use
-constexpr int kBlocksBetweenChecks = 4;
+constexpr int kBlocksBetweenChecks = 8;
 
 #if HWY_TARGET == HWY_SCALAR  // which cannot see four bytes as one lane
 
@@ -80,7 +80,7 @@ HWY_INLINE void clear(Accumulator& sum) {
 // Squares of neighbouring bytes, added up by two. Each is at most 127, so a sum is a positive i16.
 HWY_INLINE hn::Vec<Halves> squares_by_two(hn::Vec<Bytes> v) {
   const Halves d;
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#if HWY_TARGET == HWY_AVX3
   return hn::Vec<Halves>{_mm512_maddubs_epi16(v.raw, v.raw)};
 #elif HWY_TARGET == HWY_AVX2
   return hn::Vec<Halves>{_mm256_maddubs_epi16(v.raw, v.raw)};
@@ -154,38 +154,6 @@ HWY_INLINE std::uint32_t overlap_sum(const Accumulator& sum) {
 
 #endif
 
-// The blocks of a word that both pictures fill, by their places among those of each.
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL  // where pext is a fast instruction
-class Walk {
- public:
-  HWY_INLINE Walk(std::uint64_t in_a, std::uint64_t in_b)
-      : a_(_pext_u64(in_b, in_a)), b_(_pext_u64(in_a, in_b)) {}
-  HWY_INLINE bool left() const { return a_ != 0; }
-  HWY_INLINE std::size_t a() const { return static_cast<std::size_t>(std::countr_zero(a_)); }
-  HWY_INLINE std::size_t b() const { return static_cast<std::size_t>(std::countr_zero(b_)); }
-  HWY_INLINE void next() { a_ &= a_ - 1, b_ &= b_ - 1; }
-
- private:
-  std::uint64_t a_, b_;
-};
-#else
-class Walk {
- public:
-  HWY_INLINE Walk(std::uint64_t in_a, std::uint64_t in_b)
-      : in_a_(in_a), in_b_(in_b), both_(in_a & in_b) {}
-  HWY_INLINE bool left() const { return both_ != 0; }
-  HWY_INLINE std::size_t a() const { return before(in_a_); }
-  HWY_INLINE std::size_t b() const { return before(in_b_); }
-  HWY_INLINE void next() { both_ &= both_ - 1; }
-
- private:
-  HWY_INLINE std::size_t before(std::uint64_t in) const {
-    return static_cast<std::size_t>(std::popcount(in & ((both_ & (~both_ + 1)) - 1)));
-  }
-  std::uint64_t in_a_, in_b_, both_;
-};
-#endif
-
 // False as soon as the colour sum exceeds `budget`; `sums` are then of no use.
 template <bool kBudget>
 HWY_INLINE bool compare(const CellImage& a, const CellImage& b, std::uint64_t budget,
@@ -196,10 +164,10 @@ HWY_INLINE bool compare(const CellImage& a, const CellImage& b, std::uint64_t bu
   int pending = 0;
   for (std::size_t w = 0; w < a.seen.size(); ++w) {
     const std::uint64_t in_a = a.seen[w], in_b = b.seen[w];
-    Walk walk(in_a, in_b);
-    while (walk.left()) {
-      add_block<0>(cells_a + kBlockBytes * walk.a(), cells_b + kBlockBytes * walk.b(), sum);
-      walk.next();
+    for (std::uint64_t both = in_a & in_b; both != 0; both &= both - 1) {
+      const std::uint64_t below = (both & (~both + 1)) - 1;
+      add_block<0>(cells_a + kBlockBytes * std::popcount(in_a & below),
+                   cells_b + kBlockBytes * std::popcount(in_b & below), sum);
       if (!kBudget || ++pending < kBlocksBetweenChecks) continue;
       pending = 0;
       if (color_sum(sum) > budget) return false;
