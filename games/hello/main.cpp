@@ -7,22 +7,11 @@
 #include "arguments.h"
 #include "vsprite/session.h"
 #include "vsprite/vsprite.h"
+#include "wrap.h"
 
 using namespace vsprite;
 
 namespace {
-
-// A character that leaves the window comes back on the other side.
-void wrap(Actor& actor, const Renderer& screen, float margin) {
-  const auto around = [&](std::int64_t& value, int size) {
-    const auto edge = static_cast<std::int64_t>(margin) * kFixedOne;
-    const std::int64_t far = size * kFixedOne + edge;
-    if (value < -edge) value = far;
-    if (value > far) value = -edge;
-  };
-  around(actor.position.x, screen.width());
-  around(actor.position.y, screen.height());
-}
 
 Result<void> run_hello(const games::Arguments& arguments) {
   PackWatch watch(arguments.pack);
@@ -48,7 +37,7 @@ Result<void> run_hello(const games::Arguments& arguments) {
       set_direction(*sprite, actor, session->direction());
       step(*sprite, actor);
       follow(*sprite, actor, fade, arguments.fade);
-      wrap(actor, screen, sprite->data().body_length / 2);
+      games::wrap(*sprite, actor, screen.width(), screen.height());
     }
     screen.clear(srgb(0x9cc4d8));
     draw_actor(screen, *sprite, *frames, actor, fade, session->fraction());

@@ -11,6 +11,7 @@
 #include "vsprite/record.h"
 #include "vsprite/sdl.h"
 #include "vsprite/vsprite.h"
+#include "wrap.h"
 
 using namespace vsprite;
 
@@ -58,6 +59,7 @@ Result<void> run(const games::Arguments& arguments) {
     set_direction(*sprite, actor, arguments.keys.empty() ? held_keys() : script->at(actor.tick));
     step(*sprite, actor);
     follow(*sprite, actor, fade, arguments.fade);
+    games::wrap(*sprite, actor, 1280, 720);
     SDL_SetRenderDrawColor(renderer, 0x9c, 0xc4, 0xd8, 0xff);
     SDL_RenderClear(renderer);
     pictures.draw(*sprite, *frames, actor, fade);
