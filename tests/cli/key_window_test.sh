@@ -4,31 +4,13 @@
 # The screen's colour and the four sliders in a real window on a virtual display, with real mouse and
 # key events: the command line that the window shows cuts out what the window showed, byte by byte.
 # VSPRITE_SHOT=FILE.png: the screen; of the film VSPRITE_FILM instead of a drawn one, where given.
-if ! command -v xvfb-run >/dev/null || ! command -v xdotool >/dev/null; then
-  echo "SKIPPED: xvfb or xdotool is missing"; exit 77
-fi
-if [ -z "${KEY_DISPLAY:-}" ]; then
-  KEY_DISPLAY=1 exec xvfb-run -a -s "-noreset -screen 0 1280x760x24" bash "$0" "$@"
-fi
 shot=${VSPRITE_SHOT:+$(realpath "$VSPRITE_SHOT")}
 film=${VSPRITE_FILM:+$(realpath "$VSPRITE_FILM")}
-. "$(dirname "$0")/lib.sh"
+. "$(dirname "$0")/window.sh"
 "$BIN/make_film" circle ring.mp4 100 || fail "make_film"
 
-start() {  # start FILM OPTION... : a window that shows the film keyed
-  "$BIN/vsprite" segment "$@" --window >log.out 2>log.err &
-  window=$!
-  for _ in $(seq 200); do
-    id=$(xdotool search --name '^vsprite segment$' 2>/dev/null | head -1)
-    [ -n "$id" ] && xdotool windowfocus "$id" 2>/dev/null && break
-    kill -0 $window 2>/dev/null || { cp log.err stderr; fail "the window did not open"; finish; }
-    sleep 0.05
-  done
-  sleep 1.5
-}
-at() { xdotool mousemove "$1" "$2"; sleep 0.25; }
-click() { at "$1" "$2"; xdotool mousedown 1; sleep 0.25; xdotool mouseup 1; sleep 0.25; }
-press() { for key in "$@"; do xdotool key "$key"; sleep 0.2; done; }
+# start FILM OPTION... : a window that shows the film keyed
+start() { open_window log segment "$@" --window; sleep 1.5; }
 # saved: after the key S, what the window says of the cut-out that it saved; in `picture` its file,
 # in `command` the command line.
 saved() {

@@ -4,14 +4,8 @@
 # label_window_test.sh BIN [WORK]: a real window on a virtual display, real key events, the process
 # killed on the way: every answer that the window acknowledged is in the file.
 # VSPRITE_LABEL_PAIRS answers (60) by keyboard, VSPRITE_LABEL_KILLS kills (6) spread over them.
-if ! command -v xvfb-run >/dev/null || ! command -v xdotool >/dev/null; then
-  echo "SKIPPED: xvfb or xdotool is missing"; exit 77
-fi
-if [ -z "${LABEL_DISPLAY:-}" ]; then
-  LABEL_DISPLAY=1 exec xvfb-run -a -s "-noreset -screen 0 1280x760x24" bash "$0" "$@"
-fi
 given=$(realpath "${2:-/nowhere}")
-. "$(dirname "$0")/lib.sh"
+. "$(dirname "$0")/window.sh"
 pairs=${VSPRITE_LABEL_PAIRS:-60} kills=${VSPRITE_LABEL_KILLS:-6}
 RANDOM=${VSPRITE_SEED:-1}
 if [ -d "$given" ]; then
@@ -22,18 +16,9 @@ else
   expect 0 vsprite train --work c.work
 fi
 
-kept() { cat log.* 2>/dev/null | grep -c 'kept:'; }
-start() {  # start NUMBER: a window that has the keys
-  "$BIN/vsprite" label --work c.work --verbose 2>"log.$1" >/dev/null &
-  window=$!
-  for _ in $(seq 200); do
-    xdotool search --name '^vsprite label$' windowfocus >/dev/null 2>&1 && return
-    kill -0 $window 2>/dev/null || { cp "log.$1" stderr; fail "the window did not open"; finish; }
-    sleep 0.05
-  done
-  fail "no window"; finish
-}
-press() {  # press KEY: until one more answer is acknowledged
+kept() { cat log.*.err 2>/dev/null | grep -c 'kept:'; }
+start() { open_window "log.$1" label --work c.work --verbose; }  # start NUMBER
+answer() {  # answer KEPT KEY: until one more answer is acknowledged
   local before=$1 key=$2
   for _ in $(seq 20); do
     xdotool key "$key"
@@ -42,14 +27,14 @@ press() {  # press KEY: until one more answer is acknowledged
       sleep 0.01
     done
   done
-  cp "log.$run" stderr; fail "key $key was not answered"; finish
+  cp "log.$run.err" stderr; fail "key $key was not answered"; finish
 }
 
 run=0
 start $run
 sleep 0.5
 for ((n = 0; n < pairs; ++n)); do
-  press "$(kept)" "$([ $((RANDOM % 3)) = 0 ] && echo f || echo space)"
+  answer "$(kept)" "$([ $((RANDOM % 3)) = 0 ] && echo f || echo space)"
   if [ $run -lt $kills ] && [ $n -ge $(((run + 1) * pairs / (kills + 1))) ]; then
     xdotool key space &  # one more is on its way, or not
     sleep 0.00$((RANDOM % 10))
@@ -66,7 +51,7 @@ before=$(vsprite dump --work c.work --what labels -o d.csv >/dev/null 2>&1; grep
 for _ in $(seq 5); do xdotool key u; sleep 0.15; done
 for _ in $(seq 5); do xdotool key r; sleep 0.15; done
 xdotool key Escape
-wait $window || { cp "log.$run" stderr; fail "the window did not end well"; }
+wait $window || { cp "log.$run.err" stderr; fail "the window did not end well"; }
 
 expect 0 vsprite dump --work c.work --what labels -o d.csv
 acknowledged=$(kept)
@@ -75,7 +60,7 @@ missing=0
 while read -r pair what; do
   value=$([ "$what" = smooth ] && echo 1 || echo 0)
   grep -q "^$pair,$value,1$" d.csv || { missing=$((missing + 1)); echo "lost: $pair $what"; }
-done < <(cat log.* | sed -n 's/.*kept: //p')
+done < <(cat log.*.err | sed -n 's/.*kept: //p')
 expect 0 vsprite label --work c.work --export e.csv
 echo "$pairs keys, $run kills: $acknowledged acknowledged, $(($(wc -l <e.csv) - 1)) in the file, $missing lost"
 [ "$acknowledged" -ge "$pairs" ] && [ $missing = 0 ] || fail "an acknowledged answer was lost"

@@ -43,7 +43,7 @@ expect 73 path corner.txt --beam 500 --trace absent/x.csv; one_sentence
 # A full disk while the film is written: the limit on a file's size stands for it.
 small() { (trap '' XFSZ; ulimit -f 40; path "$@"); }
 printf '20 20\n420 20\n420 380\n' >far.txt
-expect 74 small far.txt --beam 500 -o full.mkv; says "full.mkv"; one_sentence
+expect 74 small far.txt --beam 5000 -o full.mkv; says "full.mkv"; one_sentence
 ls full.mkv* 2>/dev/null && fail "a film that is not whole was left behind"
 bad() { printf "$1" >bad.txt; expect 3 path bad.txt "${@:3}"; says "$2"; one_sentence; }
 bad '' "bad.txt: a path of 0 points"
@@ -64,7 +64,7 @@ probe() { ffprobe -v error -show_entries "stream=$1" -of csv=p=0 "$2"; }
 expect 66 path corner.txt --beam 500 --backdrop absent.png; one_sentence
 expect 3 path corner.txt --beam 500 --backdrop corner.txt; one_sentence
 for target in stopped.mkv stopped/; do
-  "$BIN/vsprite" path ring.vsp --script far.txt --beam 500 -o $target --progress none 2>stop.txt & pid=$!
+  "$BIN/vsprite" path ring.vsp --script far.txt --beam 5000 -o $target --progress none 2>stop.txt & pid=$!
   for _ in $(seq 200); do ls $target* 2>/dev/null | grep -q . && break; sleep 0.05; done
   kill -INT $pid; wait $pid; [ $? = 130 ] || fail "an interrupted film's exit code: $target"
   ls -d stopped* 2>/dev/null && fail "an interrupted film left something: $target"

@@ -3,33 +3,16 @@
 # SPDX-License-Identifier: MIT
 # A path drawn in a real window on a virtual display, with real mouse and key events.
 # VSPRITE_SHOT=FILE.png: the screen, with the path drawn and the sprite on it.
-if ! command -v xvfb-run >/dev/null || ! command -v xdotool >/dev/null; then
-  echo "SKIPPED: xvfb or xdotool is missing"; exit 77
-fi
-if [ -z "${PATH_DISPLAY:-}" ]; then
-  PATH_DISPLAY=1 exec xvfb-run -a -s "-noreset -screen 0 1280x760x24" bash "$0" "$@"
-fi
 shot=${VSPRITE_SHOT:+$(realpath "$VSPRITE_SHOT")}
-. "$(dirname "$0")/lib.sh"
+. "$(dirname "$0")/window.sh"
 "$BIN/make_film" circle ring.mp4 200 || fail "make_film"
 expect 0 vsprite build ring.mp4 -o ring.vsp --max-size 64
 
 # A picture of 640 x 480 in the window of 1280 x 760: 912 x 684 of it, 14 and 6 px from the corner.
 start() {
-  "$BIN/vsprite" path ring.vsp --window --script drawn.txt --size 640x480 --beam 2000 "$@" \
-    >log.out 2>log.err &
-  window=$!
-  for _ in $(seq 200); do
-    id=$(xdotool search --name '^vsprite path$' 2>/dev/null | head -1)
-    [ -n "$id" ] && xdotool windowfocus "$id" 2>/dev/null && break
-    kill -0 $window 2>/dev/null || { cp log.err stderr; fail "the window did not open"; finish; }
-    sleep 0.05
-  done
+  open_window log path ring.vsp --window --script drawn.txt --size 640x480 --beam 2000 "$@"
   sleep 1.5
 }
-at() { xdotool mousemove "$1" "$2"; sleep 0.25; }
-click() { at "$1" "$2"; xdotool mousedown "${3:-1}"; sleep 0.25; xdotool mouseup "${3:-1}"; sleep 0.25; }
-press() { xdotool key "$1"; sleep 0.3; }
 points() { grep -vc '^#' drawn.txt; }
 saved() {  # saved N WHAT: after the key S the file has so many points
   press s

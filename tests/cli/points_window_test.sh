@@ -3,31 +3,12 @@
 # SPDX-License-Identifier: MIT
 # Points placed in a real window on a virtual display, with real mouse and key events; the process
 # killed while it saves. VSPRITE_SHOT=FILE.png: the screen in the middle of a drag.
-if ! command -v xvfb-run >/dev/null || ! command -v xdotool >/dev/null; then
-  echo "SKIPPED: xvfb or xdotool is missing"; exit 77
-fi
-if [ -z "${POINTS_DISPLAY:-}" ]; then
-  POINTS_DISPLAY=1 exec xvfb-run -a -s "-noreset -screen 0 1280x760x24" bash "$0" "$@"
-fi
 shot=${VSPRITE_SHOT:+$(realpath "$VSPRITE_SHOT")}
-. "$(dirname "$0")/lib.sh"
+. "$(dirname "$0")/window.sh"
 expect 0 "$BIN/draw_puppets" art
 cd art || exit 1
 
-start() {
-  "$BIN/vsprite" points face.toml --window >"$room/log.out" 2>"$room/log.err" &
-  window=$!
-  for _ in $(seq 200); do
-    id=$(xdotool search --name '^vsprite points$' 2>/dev/null | head -1)
-    [ -n "$id" ] && xdotool windowfocus "$id" 2>/dev/null && break
-    kill -0 $window 2>/dev/null || { cp "$room/log.err" "$room/stderr"; fail "the window did not open"; finish; }
-    sleep 0.05
-  done
-  sleep 1.5
-}
-at() { xdotool mousemove "$1" "$2"; sleep 0.25; }
-click() { at "$1" "$2"; xdotool mousedown "${3:-1}"; sleep 0.25; xdotool mouseup "${3:-1}"; sleep 0.25; }
-press() { xdotool key "$1"; sleep 0.3; }
+start() { open_window "$room/log" points face.toml --window; sleep 1.5; }
 # points VIEW: how many stand in the file for it.
 row() { grep '^points' -A40 face.toml | awk -v n="$1" '/^points/ { k++ } k == n' ; }
 points() { awk -v n="$1" '/^\[\[view\]\]/ { k++ } k == n' face.toml | grep -o '\[[-0-9.]*, [-0-9.]*\]' | wc -l; }
