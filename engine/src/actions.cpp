@@ -9,7 +9,7 @@
 namespace vsprite::detail {
 namespace {
 
-constexpr std::size_t kHeadBytes = 16, kTableHeadBytes = 8;
+constexpr std::size_t kActionHeadBytes = 16, kTableHeadBytes = 8;
 constexpr std::uint32_t kMaxHorizon = 64;
 constexpr std::uint64_t kPlainArrays = 5;
 
@@ -122,7 +122,7 @@ Check read_actions(std::span<const std::uint8_t> bytes, std::uint64_t offset, Sp
         "action-size", "ACTN", offset,
         std::to_string(due) + " bytes are due, " + std::to_string(bytes.size()) + " are there");
   };
-  if (bytes.size() < kHeadBytes) return wrong_size(kHeadBytes);
+  if (bytes.size() < kActionHeadBytes) return wrong_size(kActionHeadBytes);
   Cursor cursor(bytes);
   const auto count = cursor.get<std::uint32_t>();
   data.action_horizon = cursor.get<std::uint32_t>();
@@ -135,7 +135,7 @@ Check read_actions(std::span<const std::uint8_t> bytes, std::uint64_t offset, Sp
                        " deadlines, 1 to " + std::to_string(data.tags.size()) + " of at most " +
                        std::to_string(kMaxHorizon) + " are due");
   const std::uint64_t table = kTableHeadBytes + 4 * n * (kPlainArrays + data.action_horizon);
-  if (bytes.size() != kHeadBytes + count * table) return wrong_size(kHeadBytes + count * table);
+  if (bytes.size() != kActionHeadBytes + count * table) return wrong_size(kActionHeadBytes + count * table);
   data.actions.resize(count);
   for (ActionTable& t : data.actions) {
     t.tag = cursor.get<std::uint16_t>();

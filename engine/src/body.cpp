@@ -13,7 +13,7 @@ namespace vsprite {
 namespace detail {
 namespace {
 
-constexpr std::size_t kHeadBytes = 8, kBoxBytes = 20;
+constexpr std::size_t kBodyHeadBytes = 8, kBoxBytes = 20;
 
 Finding bad_body(std::string_view code, const std::string& what, std::uint64_t offset = 0) {
   return finding(code, "BODY", offset, what);
@@ -38,8 +38,8 @@ Bytes body_bytes(const SpriteData& data) {
 
 Check read_bodies(std::span<const std::uint8_t> bytes, std::uint64_t offset, SpriteData& data) {
   Cursor cursor(bytes);
-  const std::uint64_t count = bytes.size() < kHeadBytes ? 0 : cursor.get<std::uint32_t>();
-  if (count == 0 || bytes.size() != kHeadBytes + count * kBoxBytes)
+  const std::uint64_t count = bytes.size() < kBodyHeadBytes ? 0 : cursor.get<std::uint32_t>();
+  if (count == 0 || bytes.size() != kBodyHeadBytes + count * kBoxBytes)
     return bad_body("body-size",
                     std::to_string(count) + " boxes do not make the section's " +
                         std::to_string(bytes.size()) + " bytes",

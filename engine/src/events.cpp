@@ -14,7 +14,7 @@ namespace vsprite {
 namespace detail {
 namespace {
 
-constexpr std::size_t kHeadBytes = 16, kEventBytes = 8;
+constexpr std::size_t kEventHeadBytes = 16, kEventBytes = 8;
 constexpr std::uint32_t kMaxNames = 4096;
 constexpr std::uint64_t kMaxEvents = 1u << 24;
 
@@ -45,7 +45,7 @@ Check read_events(std::span<const std::uint8_t> bytes, std::uint64_t offset, Spr
     return bad_event("event-size", what + ", " + std::to_string(bytes.size()) + " bytes are there",
                      offset);
   };
-  if (bytes.size() < kHeadBytes) return cut_off("16 bytes are due at least");
+  if (bytes.size() < kEventHeadBytes) return cut_off("16 bytes are due at least");
   Cursor cursor(bytes);
   const auto names = cursor.get<std::uint32_t>();
   if (cursor.get<std::uint32_t>() != 0)

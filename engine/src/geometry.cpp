@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 
+#include "text.h"
+
 namespace vsprite {
 namespace {
 
@@ -14,12 +16,7 @@ constexpr std::array<std::string_view, kDirectionCount> kNames{
     "right",   "right+down", "down",     "left+down", "left",
     "left+up", "up",         "right+up", "none",      "rest"};
 
-constexpr std::string_view trim(std::string_view text) noexcept {
-  constexpr std::string_view kBlank = " \t\r";
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
+using detail::trim;
 
 // Far beyond any game, and far from the end of int64 in 1/65536 px.
 constexpr double kFarthest = 140737488355328.0 / 2;  // 2^46 px

@@ -11,23 +11,20 @@
 #include <cmath>
 
 #include "file.h"
+#include "text.h"
 #include "vsprite/action.h"
 
 namespace vsprite {
 namespace {
 
+using detail::kBlank;
+using detail::trim;
+
 constexpr std::uint64_t kMostScriptBytes = std::uint64_t{16} << 20;
 constexpr double kMostSeconds = 1e9;
-constexpr std::string_view kBlank = " \t\r";
-
-std::string_view trim(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-}
 
 // What a person wrote, short enough for a message and without control characters.
-std::string quoted(std::string_view text) {
+std::string quoted_word(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string out(text.substr(0, kMost));
   for (char& c : out) {
@@ -82,7 +79,7 @@ std::optional<ScriptAction> parse_action(std::string_view words, bool& fits) {
 Result<void> parse_entry(std::string_view entry, double fps, const std::string& where,
                          KeyScript& script) {
   const auto bad = [&](const std::string& what) {
-    return Error{ErrorCode::BadSetting, where + " " + quoted(entry) + ": " + what};
+    return Error{ErrorCode::BadSetting, where + " " + quoted_word(entry) + ": " + what};
   };
   const std::size_t blank = std::min(entry.find_first_of(kBlank), entry.size());
   const std::string_view time = entry.substr(0, blank);
@@ -90,11 +87,11 @@ Result<void> parse_entry(std::string_view entry, double fps, const std::string& 
   double seconds = 0;
   const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), seconds);
   if (error != std::errc() || end != time.data() + time.size()) {
-    return bad("no time " + quoted(time) +
+    return bad("no time " + quoted_word(time) +
                ", seconds and a direction are due, as in \"2.5 right\"");
   }
   if (!(seconds >= 0 && seconds <= kMostSeconds)) {
-    return bad("time " + quoted(time) + ", 0 to 1000000000 seconds are due");
+    return bad("time " + quoted_word(time) + ", 0 to 1000000000 seconds are due");
   }
   if (name.empty())
     return bad("no direction, seconds and a direction are due, as in \"2.5 right\"");
@@ -110,7 +107,7 @@ Result<void> parse_entry(std::string_view entry, double fps, const std::string& 
   }
   const std::optional<Direction> direction = parse_direction(name);
   if (!direction) {
-    return bad("unknown direction " + quoted(name) +
+    return bad("unknown direction " + quoted_word(name) +
                ", due one of right, left, up, down, a pair such as right+up, none, rest; or play, "
                "hold, queue, release, cancel");
   }
@@ -197,7 +194,7 @@ Result<void> check_key_script(const Sprite& sprite, const KeyScript& script) {
     std::string known;
     for (const Action& a : sprite.actions()) known += (known.empty() ? "" : ", ") + a.name;
     return Error{ErrorCode::BadSetting,
-                 "key script: no action " + quoted(action.name) + ", " +
+                 "key script: no action " + quoted_word(action.name) + ", " +
                      (known.empty() ? "the pack has none: tags of a cast make them"
                                     : "the pack has " + known)};
   }

@@ -21,7 +21,7 @@ using detail::Cursor;
 
 constexpr std::array<std::uint8_t, 8> kReplayMagic{0x89, 'V', 'S', 'R', '\r', '\n', 0x1A, '\n'};
 constexpr std::uint32_t kReplayVersion = 1;
-constexpr std::size_t kHeadBytes = 40, kActorBytes = 64, kCommandBytes = 36, kSumBytes = 8;
+constexpr std::size_t kReplayHeadBytes = 40, kActorBytes = 64, kCommandBytes = 36, kSumBytes = 8;
 constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 
 // Every field of an actor, in order; `each` is called with it.
@@ -51,7 +51,7 @@ Error bad_replay(const std::string& path, const std::string& what,
 
 Result<Replay> parse_replay(const std::string& path, std::span<const std::uint8_t> bytes,
                             const Sprite& sprite) {
-  if (bytes.size() < kHeadBytes + kSumBytes ||
+  if (bytes.size() < kReplayHeadBytes + kSumBytes ||
       !std::equal(kReplayMagic.begin(), kReplayMagic.end(), bytes.begin()))
     return bad_replay(path, "not a replay (.vsr)", ErrorCode::BadFormat);
   Cursor cursor(bytes.subspan(kReplayMagic.size()));
@@ -63,7 +63,7 @@ Result<Replay> parse_replay(const std::string& path, std::span<const std::uint8_
   const auto ticks = cursor.get<std::uint64_t>(), commands = cursor.get<std::uint64_t>();
   Replay replay;
   replay.sprite = cursor.get<std::uint64_t>();
-  const std::uint64_t left = bytes.size() - kHeadBytes - kSumBytes;
+  const std::uint64_t left = bytes.size() - kReplayHeadBytes - kSumBytes;
   const bool fits = actors > 0 && actors <= left / kActorBytes && ticks <= left / 8 &&
                     commands <= left / kCommandBytes &&
                     actors * kActorBytes + ticks * 8 + commands * kCommandBytes == left;
