@@ -170,7 +170,7 @@ void Keying::act(KeyAction action) {
       break;
     case KeyAction::Reset:
       for (const window::KeySlider& slider : window::kSliders)
-        settings.*slider.field = slider.neutral;
+        settings.*slider.field = slider.neutral();
       break;
     case KeyAction::Ground:
       look_.matte = false;

@@ -18,11 +18,11 @@
 namespace vsprite::window {
 
 const KeySlider kSliders[kKeySliders] = {
-    {"clip-black", "Clip black: haze and shadow off", &Settings::clip_black, 0, 0.9, 0, 0.01,
+    {"clip-black", "Clip black: haze and shadow off", &Settings::clip_black, 0, 0.9, 0.01,
      "%.2f"},
-    {"clip-white", "Clip white: holes closed", &Settings::clip_white, 0.1, 1, 1, 0.01, "%.2f"},
-    {"edge", "Edge: inwards, outwards", &Settings::edge, -8, 4, 0, 0.25, "%.2f px"},
-    {"despill", "Despill: the screen's tint off", &Settings::despill, 0, 2, 1, 0.05, "%.2f"}};
+    {"clip-white", "Clip white: holes closed", &Settings::clip_white, 0.1, 1, 0.01, "%.2f"},
+    {"edge", "Edge: inwards, outwards", &Settings::edge, -8, 4, 0.25, "%.2f px"},
+    {"despill", "Despill: the screen's tint off", &Settings::despill, 0, 2, 0.05, "%.2f"}};
 
 void set_slider(Settings& settings, int slider, double value) {
   const KeySlider& s = kSliders[slider];
@@ -369,7 +369,7 @@ std::optional<KeyAction> KeyView::draw_side(KeyLook& look, float ui) const {
     const double value = settings.*s.field;
     ImGui::TextColored(k == look.slider ? kText : kFaint, "%d", k + 1);
     ImGui::SameLine();
-    ImGui::TextColored(k == look.slider || value != s.neutral ? kText : kFaint, "%s", s.title);
+    ImGui::TextColored(k == look.slider || value != s.neutral() ? kText : kFaint, "%s", s.title);
     ImGui::BeginDisabled(!acts);
     ImGui::SetNextItemWidth(-1);
     auto shown_value = static_cast<float>(value);
@@ -380,7 +380,7 @@ std::optional<KeyAction> KeyView::draw_side(KeyLook& look, float ui) const {
       look.slider = k;
     }
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-      set_slider(settings, k, s.neutral);
+      set_slider(settings, k, s.neutral());
     ImGui::EndDisabled();
   }
   if (button("As measured  (R)", half, height)) clicked = KeyAction::Reset;

@@ -41,8 +41,13 @@ struct KeySlider {
   const char* name;   ///< of the option
   const char* title;  ///< what it is for
   double Settings::*field;
-  double low, high, neutral, step;
+  double low, high, step;
   const char* format;
+  /// Where nothing is corrected.
+  double neutral() const {
+    static const Settings kUntouched;
+    return kUntouched.*field;
+  }
 };
 inline constexpr int kKeySliders = 4;
 extern const KeySlider kSliders[kKeySliders];
