@@ -18,8 +18,7 @@
 namespace vsprite::window {
 
 const KeySlider kSliders[kKeySliders] = {
-    {"clip-black", "Clip black: haze and shadow off", &Settings::clip_black, 0, 0.9, 0.01,
-     "%.2f"},
+    {"clip-black", "Clip black: haze and shadow off", &Settings::clip_black, 0, 0.9, 0.01, "%.2f"},
     {"clip-white", "Clip white: holes closed", &Settings::clip_white, 0.1, 1, 0.01, "%.2f"},
     {"edge", "Edge: inwards, outwards", &Settings::edge, -8, 4, 0.25, "%.2f px"},
     {"despill", "Despill: the screen's tint off", &Settings::despill, 0, 2, 0.05, "%.2f"}};
@@ -43,15 +42,8 @@ constexpr float kSide = 352, kTime = 64, kGap = 10;
 constexpr std::uint64_t kFilmKey = 1, kCutKey = 2, kBackKey = 3;
 constexpr float kReach = 8;  // of the dividing line, window px at a scale of 1
 
-struct Ground {
-  const char* name;
-  std::uint32_t light, dark;  // of its squares; the same: plain
-};
-constexpr Ground kGrounds[kKeyGrounds] = {{"game", 0x9cc4d8, 0x9cc4d8},
-                                          {"squares", 0xb9c1c7, 0xaab3ba},
-                                          {"white", 0xf7f9fa, 0xf7f9fa},
-                                          {"grey", 0x808890, 0x808890},
-                                          {"black", 0x101417, 0x101417}};
+constexpr Ground kGrounds[kKeyGrounds] = {
+    {"game", 0x9cc4d8, 0x9cc4d8}, kSquares, kWhite, kGrey, kBlack};
 
 bool button(const char* label, float width, float height, bool on = false) {
   if (on) ImGui::PushStyleColor(ImGuiCol_Button, {0.20f, 0.52f, 0.66f, 1});
@@ -201,14 +193,7 @@ void KeyView::draw_ground(Renderer& r, const KeyLook& look) {
     draw.scale = scale;
     r.draw_sprite(draw);
   }
-  if (ground.light == ground.dark) return;
-  constexpr float kSquare = 16;
-  for (int v = 0; top + static_cast<float>(v) * kSquare < bottom; ++v)
-    for (int u = v % 2; left + static_cast<float>(u) * kSquare < right; u += 2) {
-      const Vec2 at{left + static_cast<float>(u) * kSquare, top + static_cast<float>(v) * kSquare};
-      r.draw_shape(box(at, {std::min(at.x + kSquare, right), std::min(at.y + kSquare, bottom)},
-                       srgb(ground.dark)));
-    }
+  draw_squares(r, ground, {left, top}, {right, bottom}, 16);
 }
 
 void KeyView::draw_cut_out(Renderer& r, const KeyLook& look) {

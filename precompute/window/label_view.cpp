@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "window/panel.h"
+
 namespace vsprite::window {
 namespace {
 
@@ -17,18 +19,8 @@ constexpr int kBefore = 12, kAfter = 12;  // samples shown around the cut
 constexpr double kPause = 8;              // film frames on the last picture
 constexpr float kSide = 372, kGap = 14, kStill = 0.36f;
 
-struct Ground {
-  const char* name;
-  std::uint32_t light, dark;  // of its squares; the same: plain
-};
-constexpr Ground kGrounds[kLabelGrounds] = {{"squares", 0xb9c1c7, 0xaab3ba},
-                                            {"white", 0xf7f9fa, 0xf7f9fa},
-                                            {"grey", 0x808890, 0x808890},
-                                            {"black", 0x101417, 0x101417},
-                                            {"water", 0x4f93ad, 0x478aa5}};
-
-const ImVec4 kSmooth{0.24f, 0.72f, 0.52f, 1}, kJump{0.95f, 0.55f, 0.26f, 1},
-    kFaint{0.60f, 0.66f, 0.70f, 1}, kText{0.91f, 0.94f, 0.95f, 1};
+constexpr Ground kGrounds[kLabelGrounds] = {
+    kSquares, kWhite, kGrey, kBlack, {"water", 0x4f93ad, 0x478aa5}};
 
 /// Duplicates of a frame were dropped, and the sample before them is shown for as long.
 void append(const FeatureSet& set, int sample, Vec2 place, PlayedJump& jump, double& time) {
@@ -78,12 +70,6 @@ std::string percent(int part, int whole) {
   return whole > 0 ? std::to_string((100 * part + whole / 2) / whole) + " %" : "-";
 }
 
-void line(const ImVec4& color, const std::string& text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
-}
-
 /// A wide button with its key on the right.
 bool key_button(const std::string& label, const std::string& key, const ImVec4& color,
                 float height) {
@@ -113,18 +99,19 @@ void show_help(const LabelKeys& keys) {
     ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.24f);
     ImGui::TextColored(kFaint, "%s", std::string(info_of(action).help).c_str());
   }
-  line(kFaint, "Other keys: --bind \"accept=a flip=s\"");
+  line_of(kFaint, "Other keys: --bind \"accept=a flip=s\"");
 }
 
 void show_guess(const ShownPair& pair) {
   const bool smooth = pair.guess_smooth();
   ImGui::TextColored(kFaint, "My guess");
   ImGui::SetWindowFontScale(1.45f);
-  ImGui::TextColored(smooth ? kSmooth : kJump, smooth ? "smooth" : "a visible jump");
+  ImGui::TextColored(smooth ? kGood : kBad, smooth ? "smooth" : "a visible jump");
   ImGui::SetWindowFontScale(1);
   ImGui::TextColored(kFaint, "D = %.2f; the line lies at 1", double{pair.distance});
   if (pair.taken_back)
-    line(kText, std::string("You had said: ") + (*pair.taken_back ? "smooth" : "a visible jump"));
+    line_of(kText,
+            std::string("You had said: ") + (*pair.taken_back ? "smooth" : "a visible jump"));
 }
 
 void show_rates(const LabelProgress& p) {
@@ -134,22 +121,23 @@ void show_rates(const LabelProgress& p) {
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, {0.20f, 0.52f, 0.66f, 1});
   ImGui::ProgressBar(share, {-1, 0}, done.c_str());
   ImGui::PopStyleColor();
-  line(kFaint, "In this folder " + std::to_string(p.smooth + p.jumps) + " pairs: " +
-                   std::to_string(p.smooth) + " smooth, " + std::to_string(p.jumps) + " jumps");
+  line_of(kFaint, "In this folder " + std::to_string(p.smooth + p.jumps) + " pairs: " +
+                      std::to_string(p.smooth) + " smooth, " + std::to_string(p.jumps) + " jumps");
   ImGui::Spacing();
-  if (p.guessed == 0) return line(kFaint, "How good my guesses are shows after some answers.");
-  line(kText, "Guesses right: " + percent(p.agreed, p.guessed) + "  (" + std::to_string(p.agreed) +
-                  " of " + std::to_string(p.guessed) + ", most of them doubtful on purpose)");
+  if (p.guessed == 0) return line_of(kFaint, "How good my guesses are shows after some answers.");
+  line_of(kText, "Guesses right: " + percent(p.agreed, p.guessed) + "  (" +
+                     std::to_string(p.agreed) + " of " + std::to_string(p.guessed) +
+                     ", most of them doubtful on purpose)");
   const FalseAccepts& r = p.random;
   if (r.accepted > 0)
-    line(kText, "Jumps let through: " + percent(r.wrong, r.accepted) + "  (" +
-                    std::to_string(r.wrong) + " of " + std::to_string(r.accepted) +
-                    " drawn at random; at most " +
-                    std::to_string(std::lround(100 * likely_at_most(r.wrong, r.accepted))) +
-                    " % in the film)");
+    line_of(kText, "Jumps let through: " + percent(r.wrong, r.accepted) + "  (" +
+                       std::to_string(r.wrong) + " of " + std::to_string(r.accepted) +
+                       " drawn at random; at most " +
+                       std::to_string(std::lround(100 * likely_at_most(r.wrong, r.accepted))) +
+                       " % in the film)");
   if (r.refused > 0)
-    line(kText, "Smooth ones missed: " + percent(r.missed, r.refused) + "  (" +
-                    std::to_string(r.missed) + " of " + std::to_string(r.refused) + ")");
+    line_of(kText, "Smooth ones missed: " + percent(r.missed, r.refused) + "  (" +
+                       std::to_string(r.missed) + " of " + std::to_string(r.refused) + ")");
 }
 
 }  // namespace
@@ -201,15 +189,7 @@ void LabelView::draw_ground(Renderer& r, const Rect& area, int ground) const {
   const Vec2 low{static_cast<float>(area.x), static_cast<float>(area.y)};
   const Vec2 high{low.x + static_cast<float>(area.width), low.y + static_cast<float>(area.height)};
   r.draw_shape(box(low, high, srgb(g.light), 6));
-  if (g.light == g.dark) return;
-  constexpr int kSquare = 32;
-  for (int y = 0; y < area.height; y += kSquare)
-    for (int x = (y / kSquare % 2) * kSquare; x < area.width; x += 2 * kSquare) {
-      const Vec2 from{low.x + static_cast<float>(x), low.y + static_cast<float>(y)};
-      r.draw_shape(box(from,
-                       {std::min(from.x + kSquare, high.x), std::min(from.y + kSquare, high.y)},
-                       srgb(g.dark)));
-    }
+  draw_squares(r, g, low, high, 32);
 }
 
 void LabelView::draw_sample(Renderer& r, int sample, Vec2 at, float scale) const {
@@ -287,8 +267,8 @@ std::optional<LabelAction> LabelView::draw_side(const Rect& area, const LabelKey
   ImGui::SetWindowFontScale(1.2f);
   ImGui::TextColored(kText, "Would anyone see this cut?");
   ImGui::SetWindowFontScale(1);
-  line(kFaint,
-       "The subject is cut from one place of the film to another, where the bar is orange.");
+  line_of(kFaint,
+          "The subject is cut from one place of the film to another, where the bar is orange.");
   ImGui::Dummy({0, 6 * ui});
   const auto& pair = session_.current();
   if (pair) {
@@ -296,11 +276,11 @@ std::optional<LabelAction> LabelView::draw_side(const Rect& area, const LabelKey
     ImGui::Dummy({0, 4 * ui});
     const bool smooth = pair->guess_smooth();
     button(LabelAction::Accept, smooth ? "Right, it is smooth" : "Right, it is visible",
-           smooth ? kSmooth : kJump, 50);
+           smooth ? kGood : kBad, 50);
     button(LabelAction::Flip, smooth ? "Wrong, it is visible" : "Wrong, it is smooth",
-           smooth ? kJump : kSmooth, 50);
+           smooth ? kBad : kGood, 50);
   } else {
-    line(kSmooth, "Everything that could teach something has been asked.");
+    line_of(kGood, "Everything that could teach something has been asked.");
   }
   const ImVec4 plain{0.36f, 0.43f, 0.48f, 1};
   button(LabelAction::Undo, "Undo", plain, 32);
@@ -319,9 +299,9 @@ std::optional<LabelAction> LabelView::draw_side(const Rect& area, const LabelKey
   if (look.help)
     show_help(keys);
   else
-    line(kFaint, (look.said.empty() ? std::string() : look.said + "\n") +
-                     "Every answer is saved at once. " + keys.key_name(LabelAction::Help) +
-                     " lists the keys, " + keys.key_name(LabelAction::Quit) + " ends.");
+    line_of(kFaint, (look.said.empty() ? std::string() : look.said + "\n") +
+                        "Every answer is saved at once. " + keys.key_name(LabelAction::Help) +
+                        " lists the keys, " + keys.key_name(LabelAction::Quit) + " ends.");
   ImGui::End();
   return clicked;
 }
