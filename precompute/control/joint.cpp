@@ -195,7 +195,6 @@ class JointSolver {
     std::size_t changed = 0;
     for (Lanes* lanes : {&cruising_[b], &turning_[b]}) {  // turning leads to cruising
       changed += improve(problem_.edges, *lanes);
-      evaluate(problem_.edges, *lanes);
       refine(problem_.edges, *lanes);
     }
     return changed;

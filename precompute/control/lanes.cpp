@@ -32,10 +32,11 @@ using Halves = std::int64_t __attribute__((vector_size(4 * kLanes)));
 using Wide = double __attribute__((vector_size(8 * kLanes), aligned(8), may_alias));
 using Loose = float __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
 
-constexpr int kMaxSweeps = 10000;         // never met: a policy is improved 10..20 times
-constexpr std::uint32_t kMostSeen = 24;   // choices that are remembered of a row
-constexpr int kRefinePasses = 3;          // sweeps between two evaluations
-constexpr std::size_t kFewChanges = 100;  // fewer than a hundredth: worth a full sweep
+constexpr int kMaxSweeps = 10000;           // never met: a policy is improved 10..20 times
+constexpr std::uint32_t kMostSeen = 24;     // choices that are remembered of a row
+constexpr int kRefinePasses = 3;            // sweeps between two evaluations
+constexpr std::size_t kFewChanges = 5;      // fewer than a fifth: worth a full sweep
+constexpr std::size_t kNearlySolved = 100;  // fewer than a hundredth: now exactly
 constexpr double kTie = 1e-6;  // share of the value within which choices are equally good
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
@@ -85,6 +86,13 @@ VSPRITE_INLINE void lanes_of(std::uint8_t bits, Mask& out) {
   out = ((Mask{} + static_cast<std::int32_t>(bits)) & bit) != 0;
 }
 
+VSPRITE_INLINE unsigned bits_of(const Mask& mask) {
+  const Mask bits = mask & Mask{1, 2, 4, 8, 16, 32, 64, 128};
+  const Halves halves = reinterpret_cast<Halves>(bits);
+  const std::int64_t all = halves[0] | halves[1] | halves[2] | halves[3];
+  return static_cast<unsigned>((all | all >> 32) & 0xFF);
+}
+
 // The cheapest edge of a row in every lane; of equals the first of the even or of the odd ones.
 struct RowBest {
   Vector best;
@@ -131,13 +139,35 @@ VSPRITE_INLINE void read_values(const SweepView& v) {
   }
 }
 
+// Lane by lane, each from its own row.
+VSPRITE_INLINE void gather(const Vector* rows, const std::uint32_t* at, Vector& out) {
+  const float* from = reinterpret_cast<const float*>(rows);
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    out[lane] = from[std::size_t{at[lane]} * kLanes + lane];
+}
+
+// What an offset of all values adds to a row: (1 - b) offset.
+VSPRITE_INLINE void shift_of(const SweepView& v, Vector& out) {
+  out = __builtin_convertvector((1 - v.discount) * *v.offset, Vector);
+}
+
+VSPRITE_INLINE void set_value(const SweepView& v, std::size_t i, const Vector& value) {
+  const Vector go = v.arrive[i] + (Vector{} + static_cast<float>(v.discount)) * value;
+  v.value[i] = value;
+  if (v.exits == nullptr || v.exits[i] == 0) {
+    v.go[i] = go;
+  } else {
+    Mask exits;
+    lanes_of(v.exits[i], exits);
+    v.go[i] = exits ? v.go[i] : go;
+  }
+}
+
 // Lanes whose choice the minimum of the row beats clearly get a new one. What was chosen is worth
 // less now than when it was evaluated, if anything, so most rows end at the first test.
 VSPRITE_CLONES std::size_t sweep(const SweepView& v, int passes) {
-  read_values(v);
-  const Vector discount = Vector{} + static_cast<float>(v.discount);
-  const Vector shift =
-      __builtin_convertvector((1 - v.discount) * *v.offset, Vector);  // (1 - b) offset
+  Vector shift;
+  shift_of(v, shift);
   std::size_t changed = 0;
   std::fill_n(v.changed, v.count, std::uint8_t{0});
   for (std::size_t step = 0; step < v.count * static_cast<std::size_t>(passes); ++step) {
@@ -147,36 +177,126 @@ VSPRITE_CLONES std::size_t sweep(const SweepView& v, int passes) {
     RowBest row;
     best_of_row(v, first, last, row);
     const Vector before = v.value[i] + shift;
-    const bool fresh = v.chosen[i * kLanes] == kNoSample;
+    std::uint32_t* chosen = v.chosen + i * kLanes;
+    const bool fresh = chosen[0] == kNoSample;
     if (!fresh && !any_of(row.best < before - 2e-6f)) continue;
-    unsigned bits = 0;
-    for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const float best = row.best[lane], slack = 2e-6f * (1 + std::fabs(best));
-      const std::size_t at = i * kLanes + lane;
-      if (!fresh) {
-        if (!(best < before[lane] - slack)) continue;
-        const float* go = reinterpret_cast<const float*>(v.go + v.chosen[at]);
-        if (!(best < v.chosen_price[at] + go[lane] - slack)) continue;
+    const Vector size = row.best < 0.0f ? -row.best : row.best, slack = 2e-6f * (1.0f + size);
+    Loose& price = reinterpret_cast<Loose*>(v.chosen_price)[i];
+    Mask anew = row.best < before - slack;
+    if (fresh) {
+      anew = Mask{} - 1;
+    } else if (any_of(anew)) {
+      Vector go;
+      gather(v.go, chosen, go);
+      anew &= row.best < price + go - slack;
+    }
+    if (any_of(anew)) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::uint32_t e = first + static_cast<std::uint32_t>(row.edge[lane]);
+        const bool takes = anew[lane] != 0;
+        chosen[lane] = takes ? v.to[e] : chosen[lane];
+        price[lane] = takes ? v.price[e] : price[lane];
       }
-      const std::uint32_t e = first + static_cast<std::uint32_t>(row.edge[lane]);
-      v.chosen[at] = v.to[e];
-      v.chosen_price[at] = v.price[e];
-      bits |= 1u << lane;
+      const unsigned bits = bits_of(anew);
+      v.changed[i] = static_cast<std::uint8_t>(v.changed[i] | bits);
+      changed += static_cast<std::size_t>(std::popcount(bits));
     }
-    v.changed[i] = static_cast<std::uint8_t>(v.changed[i] | bits);
-    changed += static_cast<std::size_t>(std::popcount(bits));
-    const Vector now = fresh ? row.best : row.best < before ? row.best : before;
-    const Vector value = now - shift, go = v.arrive[i] + discount * value;
-    v.value[i] = value;
-    if (v.exits == nullptr || v.exits[i] == 0) {
-      v.go[i] = go;
-    } else {
-      Mask exits;
-      lanes_of(v.exits[i], exits);
-      v.go[i] = exits ? v.go[i] : go;
-    }
+    set_value(v, i, (fresh || row.best < before ? row.best : before) - shift);
   }
   return changed;
+}
+
+// V of the choices in single precision, cheaper than the exact evaluation below: go of an
+// unknown sample is NaN, of one on the present walk +inf.
+class NearEvaluation {
+ public:
+  NearEvaluation(const SweepView& view, std::vector<std::size_t>& walk)
+      : v_(view), walk_(walk), go_(reinterpret_cast<float*>(view.go)) {}
+
+  // Follows the choice of `at` to a known value, or until the walk meets itself.
+  void follow(std::size_t at) {
+    walk_.clear();
+    for (; std::isnan(go_[at]); at = target(at)) {
+      go_[at] = kInfinite;
+      walk_.push_back(at);
+    }
+    if (std::isinf(go_[at])) close(at);
+    for (std::size_t k = walk_.size(); k-- > 0;) {
+      const std::size_t q = walk_[k];
+      if (std::isinf(go_[q])) set(q, v_.chosen_price[q] + go_[target(q)] - shift(q));
+    }
+  }
+
+ private:
+  std::size_t target(std::size_t at) const {
+    return std::size_t{v_.chosen[at]} * kLanes + at % kLanes;
+  }
+  float arrive(std::size_t at) const { return reinterpret_cast<const float*>(v_.arrive)[at]; }
+  float shift(std::size_t at) const {
+    const double offset = reinterpret_cast<const double*>(v_.offset)[at % kLanes];
+    return static_cast<float>((1 - v_.discount) * offset);
+  }
+  void set(std::size_t at, float value) {
+    reinterpret_cast<float*>(v_.value)[at] = value;
+    go_[at] = arrive(at) + static_cast<float>(v_.discount) * value;
+  }
+  void close(std::size_t at) {
+    double sum = 0, power = 1;
+    std::size_t q = at;
+    do {
+      const std::size_t next = target(q);
+      sum += power * static_cast<double>(v_.chosen_price[q] + arrive(next) - shift(q));
+      power *= v_.discount;
+      q = next;
+    } while (q != at);
+    set(at, static_cast<float>(sum / (1 - power)));
+  }
+
+  const SweepView& v_;
+  std::vector<std::size_t>& walk_;
+  float* go_;
+};
+
+// Adds the least value to the offset, so that the values keep their digits.
+void lower_offset(const SweepView& v, double* offset) {
+  Vector least = Vector{} + kInfinite;
+  for (std::size_t i = 0; i < v.count; ++i) {
+    if (v.first[i] != v.last[i]) least = v.value[i] < least ? v.value[i] : least;
+  }
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if (std::isfinite(least[lane])) offset[lane] += static_cast<double>(least[lane]);
+}
+
+VSPRITE_CLONES void evaluate_near(const SweepView& v, NearEvaluation& walks) {
+  Vector shift;
+  shift_of(v, shift);
+  const Vector unknown = Vector{} + std::numeric_limits<float>::quiet_NaN();
+  std::fill_n(v.go, v.count, unknown);
+  if (v.exits != nullptr) {
+    const Vector discount = Vector{} + static_cast<float>(v.discount);
+    for (std::size_t j = 0; j < v.count; ++j) {
+      if (v.exits[j] == 0) continue;
+      const Vector past = __builtin_convertvector(v.beyond[j] - *v.offset, Vector);
+      Mask exits;
+      lanes_of(v.exits[j], exits);
+      v.go[j] = exits ? v.arrive[j] + discount * past : v.go[j];
+    }
+  }
+  for (std::size_t i = v.count; i-- > 0;) {
+    if (v.first[i] == v.last[i]) continue;
+    const std::uint32_t* chosen = v.chosen + i * kLanes;
+    Vector go;
+    gather(v.go, chosen, go);
+    const Mask open = go != go;
+    if (any_of(open)) {
+      for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        if (open[lane] == 0) continue;
+        walks.follow(std::size_t{chosen[lane]} * kLanes + lane);
+      }
+      gather(v.go, chosen, go);
+    }
+    set_value(v, i, reinterpret_cast<const Loose*>(v.chosen_price)[i] + go - shift);
+  }
 }
 
 // What best_of_rows reads and writes.
@@ -236,33 +356,54 @@ VSPRITE_CLONES void row_minima(const RowsView& v) {
   }
 }
 
-std::size_t sweep_over(Lanes& lanes, std::span<const std::uint32_t> first,
-                       std::span<const std::uint32_t> last, const std::vector<std::uint32_t>& to,
-                       const std::vector<float>& price, int passes,
-                       std::vector<std::uint8_t>& changed) {
+// What sweeps over some edges of every row touch.
+SweepView view_of(Lanes& lanes, std::span<const std::uint32_t> first,
+                  std::span<const std::uint32_t> last, const std::vector<std::uint32_t>& to,
+                  const std::vector<float>& price) {
   const std::size_t n = first.size();
   lanes.work.resize((2 * n + 2) * kLanes);
+  lanes.changed.resize(n);
   const auto at = reinterpret_cast<std::uintptr_t>(lanes.work.data());
   const auto value = reinterpret_cast<Vector*>((at + 63) / 64 * 64);
-  changed.resize(n);
   const auto wide = [](const double* from) { return reinterpret_cast<const Wide*>(from); };
-  return sweep(
-      {n, first.data(), last.data(), to.data(), price.data(),
-       reinterpret_cast<const Loose*>(lanes.arrive.data()),
-       lanes.exits.empty() ? nullptr : lanes.exits.data(), wide(lanes.values.data()),
-       lanes.beyond != nullptr ? wide(lanes.beyond->data()) : nullptr, wide(lanes.offset.data()),
-       lanes.discount, value, value + n, lanes.to.data(), lanes.price.data(), changed.data()},
-      passes);
+  return {n,
+          first.data(),
+          last.data(),
+          to.data(),
+          price.data(),
+          reinterpret_cast<const Loose*>(lanes.arrive.data()),
+          lanes.exits.empty() ? nullptr : lanes.exits.data(),
+          wide(lanes.values.data()),
+          lanes.beyond != nullptr ? wide(lanes.beyond->data()) : nullptr,
+          wide(lanes.offset.data()),
+          lanes.discount,
+          value,
+          value + n,
+          lanes.to.data(),
+          lanes.price.data(),
+          lanes.changed.data()};
+}
+SweepView all_edges(const Edges& edges, Lanes& lanes) {
+  const std::span rows(edges.row_start);
+  return view_of(lanes, rows.first(edges.size()), rows.subspan(1), edges.to, edges.price);
+}
+SweepView seen_edges(Lanes& lanes) {
+  const Lanes::Seen& seen = lanes.seen;
+  return view_of(lanes, seen.first, seen.last, seen.to, seen.price);
 }
 
 // Adds the new choices of a row to those seen; a full row keeps what it has.
 void remember(Lanes& lanes, std::size_t i, unsigned bits) {
   Lanes::Seen& seen = lanes.seen;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if ((bits >> lane & 1u) == 0) continue;
+  std::uint32_t before = kNoSample;
+  for (; bits != 0; bits &= bits - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
     const std::uint32_t to = lanes.to[i * kLanes + lane];
-    const auto first = seen.to.begin() + seen.first[i], last = seen.to.begin() + seen.last[i];
-    if (seen.last[i] - seen.first[i] == kMostSeen || std::find(first, last, to) != last) continue;
+    if (to == before) continue;
+    before = to;
+    bool known = seen.last[i] - seen.first[i] == kMostSeen;
+    for (std::uint32_t e = seen.first[i]; e < seen.last[i]; ++e) known |= seen.to[e] == to;
+    if (known) continue;
     seen.to[seen.last[i]] = to;
     seen.price[seen.last[i]++] = lanes.price[i * kLanes + lane];
   }
@@ -358,6 +499,26 @@ class Evaluation {
   std::vector<std::size_t> walk_;
 };
 
+// One sweep over all edges for the values as they stand in single precision.
+std::size_t improve_near(const Edges& edges, Lanes& lanes) {
+  const std::size_t count = sweep(all_edges(edges, lanes), 1);
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (lanes.changed[i] != 0) remember(lanes, i, lanes.changed[i]);
+  return count;
+}
+
+// Sweeps over the choices seen so far, each after an evaluation, until hardly any changes.
+void refine_near(Lanes& lanes) {
+  const SweepView view = seen_edges(lanes);
+  std::vector<std::size_t> walk;
+  NearEvaluation walks(view, walk);
+  for (int k = 0; k < kMaxSweeps; ++k) {
+    lower_offset(view, lanes.offset.data());
+    evaluate_near(view, walks);
+    if (sweep(view, kRefinePasses) < lanes.to.size() / kFewChanges) break;
+  }
+}
+
 // The least of every lane, over rows that are not empty.
 void least_of_lanes(const Edges& edges, const LaneDoubles& values, double* least) {
   std::fill_n(least, kLanes, std::numeric_limits<double>::infinity());
@@ -397,7 +558,8 @@ Edges make_edges(const CostTable& costs, std::span<const float> skip_costs,
       if (open && t.to >= next_but_one) add(next_but_one, skip), open = false;
       if (skips && t.to == next_but_one) continue;
       const bool needed = !costs.needed.empty() && costs.needed[costs.row_start[i] + k] != 0;
-      if (needed || static_cast<double>(t.cost) <= limit) add(t.to, price_of(static_cast<double>(t.cost)));
+      if (needed || static_cast<double>(t.cost) <= limit)
+        add(t.to, price_of(static_cast<double>(t.cost)));
     }
     if (open) add(next_but_one, skip);
     edges.row_start.push_back(static_cast<std::uint32_t>(edges.to.size()));
@@ -420,13 +582,8 @@ void start(const Edges& edges, Lanes& lanes) {
 }
 
 std::size_t improve(const Edges& edges, Lanes& lanes) {
-  const std::span rows(edges.row_start);
-  std::vector<std::uint8_t> changed;
-  const std::size_t count = sweep_over(lanes, rows.first(edges.size()), rows.subspan(1), edges.to,
-                                       edges.price, 1, changed);
-  for (std::size_t i = 0; i < changed.size(); ++i)
-    if (changed[i] != 0) remember(lanes, i, changed[i]);
-  return count;
+  read_values(all_edges(edges, lanes));
+  return improve_near(edges, lanes);
 }
 
 void evaluate(const Edges& edges, Lanes& lanes) {
@@ -435,22 +592,20 @@ void evaluate(const Edges& edges, Lanes& lanes) {
 }
 
 void refine(const Edges& edges, Lanes& lanes) {
-  const Lanes::Seen& seen = lanes.seen;
-  std::vector<std::uint8_t> changed;
-  for (int k = 0; k < kMaxSweeps; ++k) {
-    const std::size_t count =
-        sweep_over(lanes, seen.first, seen.last, seen.to, seen.price, kRefinePasses, changed);
-    if (count == 0) break;
-    evaluate(edges, lanes);
-    if (count < lanes.to.size() / kFewChanges) break;
-  }
+  refine_near(lanes);
+  evaluate(edges, lanes);
 }
 
 void solve_lanes(const Edges& edges, Lanes& lanes) {
+  read_values(all_edges(edges, lanes));
   for (int k = 0; k < kMaxSweeps; ++k) {
-    if (improve(edges, lanes) == 0) break;
+    const std::size_t changed = improve_near(edges, lanes);
+    refine_near(lanes);
+    if (changed < lanes.to.size() / kNearlySolved) break;
+  }
+  for (int k = 0; k < kMaxSweeps; ++k) {
     evaluate(edges, lanes);
-    refine(edges, lanes);
+    if (improve(edges, lanes) == 0) break;
   }
 }
 

@@ -63,7 +63,8 @@ struct Lanes {
     std::vector<std::uint32_t> to;
     std::vector<float> price;
   } seen;
-  LaneFloats work;  ///< of sweeps, kept so that none has to fetch memory anew
+  LaneFloats work;                    ///< of sweeps, kept so that none has to fetch memory anew
+  std::vector<std::uint8_t> changed;  ///< (N) bit k: the last sweep chose anew in lane k
 };
 /// `lanes.arrive` is due; values become 0.
 void start(const Edges& edges, Lanes& lanes);
@@ -72,8 +73,8 @@ void start(const Edges& edges, Lanes& lanes);
 std::size_t improve(const Edges& edges, Lanes& lanes);
 /// V of the choices as they stand, exactly.
 void evaluate(const Edges& edges, Lanes& lanes);
-/// Sweeps over the choices seen so far and evaluations, until hardly any changes: near the optimum
-/// of a graph of a tenth of the edges, to which improve() then has little to add.
+/// After improve(): evaluations in single precision and sweeps over the choices seen so far, until
+/// few change: near the optimum of a graph of a tenth of the edges. Ends with evaluate().
 void refine(const Edges& edges, Lanes& lanes);
 /// All three until no choice among all edges changes.
 void solve_lanes(const Edges& edges, Lanes& lanes);
