@@ -32,6 +32,9 @@ class ByteSource {
 
   std::uint64_t size() const noexcept { return size_; }
   const std::string& name() const noexcept { return name_; }
+  /// False for a caller's reader: it is called by the thread that opens the pack, and later by
+  /// those that decode.
+  bool is_shared() const noexcept { return !read_; }
   /// Errors: CannotRead (also when the file has become shorter). Pre: the range lies inside size().
   Result<void> read(std::uint64_t offset, std::span<std::uint8_t> out) const;
 

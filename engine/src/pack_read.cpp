@@ -4,9 +4,13 @@
 // From bytes that nobody vouches for to a SpriteData: header, section table, then section by
 // section. Every count is compared with the bytes that are there before memory is taken for it;
 // what the numbers mean is checked afterwards, in one place (check_sprite_data).
+#define XXH_STATIC_LINKING_ONLY  // the size of the streaming state
+#include <xxhash.h>
+
 #include <algorithm>
 #include <memory>
 
+#include "bulk.h"
 #include "pack_format.h"
 #include "sections.h"
 
@@ -193,17 +197,100 @@ Check read_section(const ByteSource& source, const SectionEntry& entry, Section&
                  "the section's sum does not fit its bytes");
 }
 
-// As many numbers into a fresh vector, in pieces: resizing it would write every page twice.
-template <class T>
-void read_array(Cursor& cursor, std::size_t count, std::vector<T>& out) {
-  std::array<T, 1024> piece;
-  out.reserve(count);
-  while (out.size() < count) {
-    const auto part = std::span(piece).first(std::min(piece.size(), count - out.size()));
-    cursor.get_all(part);
-    out.insert(out.end(), part.begin(), part.end());
+// A section of many megabytes: read in pieces that stay in the cache while they are summed up and
+// their numbers taken out. What was taken counts only after finish(). All takes are multiples of
+// four bytes, so that numbers lie aligned in the piece.
+class SectionReader {
+ public:
+  SectionReader(const ByteSource& source, const SectionEntry& entry)
+      : source_(source),
+        entry_(entry),
+        piece_bytes_(std::min<std::uint64_t>(entry.bytes, kPieceBytes)),
+        piece_(std::make_unique_for_overwrite<std::uint8_t[]>(piece_bytes_)) {
+    XXH3_64bits_reset(&sum_);
   }
-}
+
+  std::uint64_t offset() const { return entry_.offset; }
+  std::uint64_t size() const { return entry_.bytes; }
+  std::uint64_t left() const { return front_.size() + entry_.bytes - read_; }
+
+  // The next bytes, valid until the next call. Pre: count <= left(), and at most 1 KB.
+  std::span<const std::uint8_t> take(std::size_t count) {
+    if (front_.size() < count) read_more();
+    const auto taken = front_.first(count);
+    front_ = front_.subspan(count);
+    return taken;
+  }
+
+  // So many numbers, or pairs of numbers of four bytes. Pre: they are left.
+  template <class T>
+  void take_all(std::uint64_t count, std::vector<T>& out) {
+    reserve_bulk(out, count);
+    while (out.size() < count) {
+      if (front_.size() < sizeof(T)) read_more();
+      const std::size_t part =
+          std::min<std::uint64_t>(front_.size() / sizeof(T), count - out.size());
+      append(front_.first(part * sizeof(T)), out);
+      front_ = front_.subspan(part * sizeof(T));
+    }
+  }
+
+  // Reads and sums up the rest. What is wrong with the bytes comes before what they say, `bad`.
+  Check finish(Check bad) {
+    while (read_ < entry_.bytes) {
+      front_ = {};
+      read_more();
+    }
+    if (failed_) return failed_;
+    if (XXH3_64bits_digest(&sum_) == entry_.sum) return bad;
+    return finding("section-sum", entry_.name, entry_.offset,
+                   "the section's sum does not fit its bytes");
+  }
+
+  Finding wrong_size(std::string_view code, const std::string& what, std::uint64_t due) const {
+    return finding(code, entry_.name, entry_.offset,
+                   what + ": need " + number(due) + " bytes, " + number(size()) + " are there");
+  }
+
+ private:
+  static constexpr std::size_t kPieceBytes = std::size_t{128} << 10;
+
+  void read_more() {
+    std::copy(front_.begin(), front_.end(), piece_.get());
+    const auto fresh =
+        std::span(piece_.get(), piece_bytes_)
+            .subspan(front_.size())
+            .first(std::min<std::uint64_t>(piece_bytes_ - front_.size(), entry_.bytes - read_));
+    if (!failed_) {
+      if (auto read = source_.read(entry_.offset + read_, fresh); !read)
+        failed_ = unreadable(read.error(), entry_.name, entry_.offset);
+    }
+    if (failed_) std::fill(fresh.begin(), fresh.end(), std::uint8_t{0});
+    XXH3_64bits_update(&sum_, fresh.data(), fresh.size());
+    read_ += fresh.size();
+    front_ = std::span(piece_.get(), front_.size() + fresh.size());
+  }
+
+  template <class T>
+  static void append(std::span<const std::uint8_t> bytes, std::vector<T>& out) {
+    static_assert(alignof(T) == 4 && std::is_trivially_copyable_v<T>);
+    const auto* first = reinterpret_cast<const T*>(bytes.data());
+    out.insert(out.end(), first, first + bytes.size() / sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) {
+      auto* at = reinterpret_cast<std::uint8_t*>(out.data() + out.size()) - bytes.size();
+      for (std::size_t i = 0; i < bytes.size(); i += 4) std::reverse(at + i, at + i + 4);
+    }
+  }
+
+  const ByteSource& source_;
+  const SectionEntry& entry_;
+  std::size_t piece_bytes_;
+  std::unique_ptr<std::uint8_t[]> piece_;
+  std::span<const std::uint8_t> front_;  // of the piece, not yet taken
+  std::uint64_t read_ = 0;
+  XXH3_state_t sum_;
+  Check failed_;
+};
 
 const SectionEntry& entry_of(const PackContent& content, std::string_view name) {
   return *std::find_if(content.sections.begin(), content.sections.end(),
@@ -283,45 +370,39 @@ Check read_samples(const Section& section, SpriteData& data, std::uint32_t count
   return {};
 }
 
-Check read_transitions(const Section& section, SpriteData& data) {
+Check read_transitions(SectionReader& section, SpriteData& data) {
   const std::uint64_t rows = std::uint64_t{data.samples.size()} + 1;
-  if (section.bytes.size() < 8 + 4 * rows) {
+  if (section.size() < 8 + 4 * rows) {
     return section.wrong_size("tran-size", number(rows) + " row starts", 8 + 4 * rows);
   }
-  Cursor cursor(section.bytes);
-  const auto count = cursor.get<std::uint64_t>();
-  const std::uint64_t left = section.bytes.size() - 8 - 4 * rows;
+  const auto count = Cursor(section.take(8)).get<std::uint64_t>();
+  const std::uint64_t left = section.left() - 4 * rows;
   if (count > kMaxTransitions || count * 8 != left) {
-    return finding("tran-size", "TRAN", section.offset,
+    return finding("tran-size", "TRAN", section.offset(),
                    number(count) + " transitions of 8 bytes, " + number(left) + " bytes are there");
   }
-  read_array(cursor, rows, data.row_start);
-  data.transitions.reserve(count);
-  for (std::uint64_t k = 0; k < count; ++k) {
-    const auto to = cursor.get<std::uint32_t>();
-    data.transitions.push_back({to, cursor.get<float>()});
-  }
+  section.take_all(rows, data.row_start);
+  section.take_all(count, data.transitions);
   return {};
 }
 
 // The counts on which the size of the tables depends.
-Check check_table_count(const ControlMode& mode, const Section& section) {
+Check check_table_count(const ControlMode& mode, std::uint64_t offset) {
   if (mode.headings != 8 && mode.headings != 16 && mode.headings != 32) {
-    return finding("headings", "CTRL", section.offset + 52,
+    return finding("headings", "CTRL", offset + 52,
                    number(mode.headings) + " headings, 8, 16 or 32 are due");
   }
   if (mode.stages >= 1 && mode.stages <= kMaxTables && mode.tables() <= kMaxTables) return {};
-  return finding("stages", "CTRL", section.offset + 12,
+  return finding("stages", "CTRL", offset + 12,
                  number(mode.stages) + " stages of " + number(mode.headings) + " headings, 1 to " +
                      number(kMaxTables / (mode.headings + 2)) + " are due");
 }
 
-Check read_mode(const Section& section, SpriteData& data) {
-  if (section.bytes.size() < kModeBytes) {
+Check read_mode(SectionReader& section, std::size_t n, ControlMode& mode) {
+  if (section.size() < kModeBytes) {
     return section.wrong_size("ctrl-size", "fixed fields", kModeBytes);
   }
-  Cursor cursor(section.bytes);
-  ControlMode mode;
+  Cursor cursor(section.take(kModeBytes));
   mode.alpha = cursor.get<float>();
   mode.w1 = cursor.get<float>();
   mode.cap = cursor.get<float>();
@@ -335,7 +416,7 @@ Check read_mode(const Section& section, SpriteData& data) {
   mode.by_state = (flags & kByState) != 0;
   mode.plays_through = (flags & kPlaysThrough) != 0;
   if ((flags & ~(kByState | kPlaysThrough)) != 0) {
-    return finding("switching", "CTRL", section.offset + 50,
+    return finding("switching", "CTRL", section.offset() + 50,
                    "flags " + number(flags) + ", at most 3 is due");
   }
   mode.power = cursor.get<std::uint8_t>();
@@ -349,33 +430,33 @@ Check read_mode(const Section& section, SpriteData& data) {
   mode.dead_angle = cursor.get<float>();
   mode.bend_cos = cursor.get<std::int32_t>();
   mode.bend_sin = cursor.get<std::int32_t>();
-  for (std::uint8_t zero : cursor.take(kModeBytes - 92)) {
+  for (std::uint8_t zero : cursor.take(cursor.left())) {
     if (zero != 0)
-      return finding("reserved", "CTRL", section.offset + 92, "reserved bytes are not 0");
+      return finding("reserved", "CTRL", section.offset() + 92, "reserved bytes are not 0");
   }
   const std::uint64_t padded = (std::uint64_t{name_bytes} + 3) / 4 * 4;
-  if (name_bytes > kMaxText || padded > cursor.left()) {
+  if (name_bytes > kMaxText || padded > section.left()) {
     return finding(
-        "text-size", "CTRL", section.offset + 36,
-        "a name of " + number(name_bytes) + " bytes, " + number(cursor.left()) + " are left");
+        "text-size", "CTRL", section.offset() + 36,
+        "a name of " + number(name_bytes) + " bytes, " + number(section.left()) + " are left");
   }
-  const auto name = cursor.take(padded);
+  const auto name = section.take(padded);
   mode.name.assign(name.begin(), name.begin() + name_bytes);
   if (std::any_of(name.begin() + name_bytes, name.end(), [](auto c) { return c != 0; })) {
-    return finding("padding", "CTRL", section.offset + kModeBytes, "padding of the name is not 0");
+    return finding("padding", "CTRL", section.offset() + kModeBytes,
+                   "padding of the name is not 0");
   }
-  if (Check bad = check_table_count(mode, section)) return bad;
-  const std::uint64_t n = data.samples.size(), entries = mode.tables() * n;
+  if (Check bad = check_table_count(mode, section.offset())) return bad;
+  const std::uint64_t entries = mode.tables() * n;
   const std::uint64_t due = 4 * (2 * entries + (mode.by_state ? n : 0));
-  if (cursor.left() != due) {
-    return finding("ctrl-size", "CTRL", section.offset,
+  if (section.left() != due) {
+    return finding("ctrl-size", "CTRL", section.offset(),
                    number(mode.tables()) + " tables need " + number(due) + " bytes, " +
-                       number(cursor.left()) + " are there");
+                       number(section.left()) + " are there");
   }
-  read_array(cursor, entries, mode.next);
-  read_array(cursor, entries, mode.go);
-  read_array(cursor, mode.by_state ? n : 0, mode.arrived);
-  data.modes.push_back(std::move(mode));
+  section.take_all(entries, mode.next);
+  section.take_all(entries, mode.go);
+  section.take_all(mode.by_state ? n : 0, mode.arrived);
   return {};
 }
 
@@ -417,6 +498,34 @@ Check read_frames(const Section& section, PackContent& content) {
                  "the pictures end at " + number(end) + ", FRAM at " + number(fram.bytes));
 }
 
+Check read_modes(const ByteSource& source, const PackContent& content,
+                 std::vector<ControlMode>& modes) {
+  for (const SectionEntry& entry : content.sections) {
+    if (entry.name != "CTRL") continue;
+    SectionReader section(source, entry);
+    ControlMode& mode = modes.emplace_back();
+    if (Check bad = section.finish(read_mode(section, content.data.samples.size(), mode)))
+      return bad;
+  }
+  return {};
+}
+
+// The two kinds of large tables, side by side.
+Check read_tables(const ByteSource& source, PackContent& content) {
+  const SectionEntry& transitions = entry_of(content, "TRAN");
+  Check bad_transitions, bad_modes;
+  std::vector<ControlMode> modes;
+  run_both(
+      source.is_shared() ? transitions.bytes : 0,
+      [&] {
+        SectionReader section(source, transitions);
+        bad_transitions = section.finish(read_transitions(section, content.data));
+      },
+      [&] { bad_modes = read_modes(source, content, modes); });
+  content.data.modes = std::move(modes);
+  return bad_transitions ? bad_transitions : bad_modes;
+}
+
 // An offset that says where the section lies, for findings about its meaning.
 Check locate(Check bad, const PackContent& content) {
   if (bad && bad->issue.offset == 0 && !bad->issue.section.empty()) {
@@ -456,13 +565,7 @@ Check read_content(const ByteSource& source, PackContent& content) {
   if (Check bad = read_meta(section, data, sample_count)) return bad;
   if (Check bad = read_section(source, entry_of(content, "SAMP"), section)) return bad;
   if (Check bad = read_samples(section, data, sample_count)) return bad;
-  if (Check bad = read_section(source, entry_of(content, "TRAN"), section)) return bad;
-  if (Check bad = read_transitions(section, data)) return bad;
-  for (const SectionEntry& entry : content.sections) {
-    if (entry.name != "CTRL") continue;
-    if (Check bad = read_section(source, entry, section)) return bad;
-    if (Check bad = read_mode(section, data)) return bad;
-  }
+  if (Check bad = read_tables(source, content)) return bad;
   if (Check bad = locate(check_sprite_data(data), content)) return bad;
   if (Check bad = read_optional(source, content)) return bad;
   if (Check bad = locate(check_picture_sizes(data), content)) return bad;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "bulk.h"
 #include "pack_format.h"
 #include "sections.h"
 
@@ -123,6 +124,32 @@ std::vector<std::uint8_t> kept_of(const SpriteData& data) {
   return kept;
 }
 
+// A job for either half of the samples; what the first half finds comes first.
+template <class Job>
+Check check_halves(std::uint64_t bytes, std::uint32_t count, const Job& job) {
+  Check bad[2];
+  run_halves(bytes, count, [&](std::uint32_t first, std::uint32_t last) {
+    bad[last == count ? 1 : 0] = job(first, last);
+  });
+  return bad[0] ? bad[0] : bad[1];
+}
+
+// Without a branch for each; check_row says what is wrong.
+bool is_good_row(const SpriteData& data, std::span<const std::uint8_t> kept, std::uint32_t i) {
+  const auto n = static_cast<std::uint32_t>(kept.size());
+  const auto row = std::span(data.transitions)
+                       .subspan(data.row_start[i], data.row_start[i + 1] - data.row_start[i]);
+  unsigned all = row.empty() ? 1u : kept[i];
+  std::int64_t before = -1;
+  for (const Transition& t : row) {
+    const bool finite = t.cost >= 0 && t.cost <= std::numeric_limits<float>::max();
+    all &= unsigned{t.to > before} & unsigned{finite} & kept[std::min(t.to, n - 1)] &
+           unsigned{t.to < n};
+    before = t.to;
+  }
+  return all != 0;
+}
+
 Check check_row(const SpriteData& data, std::span<const std::uint8_t> kept, std::uint32_t i) {
   const auto row = [&](std::string_view code, const std::string& what) {
     return finding(code, "TRAN", 0, "transitions of sample " + number(i) + ": " + what);
@@ -158,10 +185,12 @@ Check check_transitions(const SpriteData& data) {
         "the row starts do not ascend from 0 to the number of transitions, one a sample");
   }
   const std::vector<std::uint8_t> kept = kept_of(data);
-  for (std::uint32_t i = 0; i < n; ++i) {
-    if (Check bad = check_row(data, kept, i)) return bad;
-  }
-  return {};
+  return check_halves(data.transitions.size() * sizeof(Transition), static_cast<std::uint32_t>(n),
+                      [&](std::uint32_t first, std::uint32_t last) -> Check {
+                        for (std::uint32_t i = first; i < last; ++i)
+                          if (!is_good_row(data, kept, i)) return check_row(data, kept, i);
+                        return {};
+                      });
 }
 
 Check check_mode_settings(const ControlMode& mode, const std::string& what) {
@@ -245,8 +274,31 @@ Check check_entry(const SpriteData& data, const ControlMode& mode, std::size_t t
              "next is sample " + number(to) + ", but there is no such transition");
 }
 
-// Every kept sample must lead to a kept one along a transition that exists. Sixteen samples of all
-// tables at a time: their transitions stay at hand, and what one table leads to most others do too.
+// Sixteen samples of all tables at a time: their transitions stay at hand, and most of what one
+// table leads to, others lead to as well, which is remembered.
+Check check_entries(const SpriteData& data, const ControlMode& mode, const std::string& what,
+                    std::uint32_t first, std::uint32_t last) {
+  constexpr std::uint32_t kBlock = 16, kPlaces = 32;
+  const std::size_t n = data.samples.size(), tables = mode.tables();
+  std::array<std::array<std::uint32_t, kPlaces>, kBlock> good;
+  for (; first < last; first += kBlock) {
+    const std::uint32_t count = std::min(last - first, kBlock);
+    for (auto& places : good)  // what belongs to no place
+      for (std::uint32_t p = 0; p < kPlaces; ++p) places[p] = p ^ 1u;
+    for (std::size_t table = 0; table < tables; ++table) {
+      const std::uint32_t* next = mode.next.data() + table * n + first;
+      for (std::uint32_t k = 0; k < count; ++k) {
+        std::uint32_t& place = good[k][next[k] % kPlaces];
+        if (place == next[k]) continue;
+        if (Check bad = check_entry(data, mode, table, first + k, what)) return bad;
+        place = next[k];
+      }
+    }
+  }
+  return {};
+}
+
+// Every kept sample must lead to a kept one along a transition that exists.
 Check check_next(const SpriteData& data, const ControlMode& mode, const std::string& what) {
   const std::size_t n = data.samples.size(), tables = mode.tables();
   if (mode.next.size() != tables * n || mode.go.size() != tables * n ||
@@ -255,26 +307,16 @@ Check check_next(const SpriteData& data, const ControlMode& mode, const std::str
                    what + number(mode.next.size()) + " entries of next, " + number(tables * n) +
                        " are due, and as many of go");
   }
-  constexpr std::size_t kBlock = 16;
-  for (std::size_t first = 0; first < n; first += kBlock) {
-    const std::size_t count = std::min(n - first, kBlock);
-    for (std::size_t table = 0; table < tables; ++table) {
-      const std::uint32_t* next = mode.next.data() + table * n + first;
-      for (std::size_t k = 0; k < count; ++k) {
-        if (table > 0 && next[k] == *(next + k - n)) continue;
-        const auto from = static_cast<std::uint32_t>(first + k);
-        if (Check bad = check_entry(data, mode, table, from, what)) return bad;
-      }
-    }
-  }
-  return {};
+  return check_halves(4 * tables * n, static_cast<std::uint32_t>(n),
+                      [&](std::uint32_t first, std::uint32_t last) {
+                        return check_entries(data, mode, what, first, last);
+                      });
 }
 
-// What is compared when a game asks for variety or clearance.
-Check check_go(const ControlMode& mode, std::span<const std::uint8_t> kept,
-               const std::string& what) {
+Check check_costs(const ControlMode& mode, std::span<const std::uint8_t> kept,
+                  const std::string& what, std::uint32_t first, std::uint32_t last) {
   const std::size_t n = kept.size();
-  for (std::size_t table = 0; table < mode.tables(); ++table) {
+  for (std::size_t table = first; table < last; ++table) {
     const std::span<const float> go = std::span(mode.go).subspan(table * n, n);
     const auto is_good = [&](std::size_t i) {  // finite, >= 0; 0 where the sample was not kept
       const float most = kept[i] != 0 ? std::numeric_limits<float>::max() : 0.0f;
@@ -290,6 +332,18 @@ Check check_go(const ControlMode& mode, std::span<const std::uint8_t> kept,
                        ": the cost to go is not a finite number >= 0, or not 0 for a sample that "
                        "was not kept");
   }
+  return {};
+}
+
+// What is compared when a game asks for variety or clearance.
+Check check_go(const ControlMode& mode, std::span<const std::uint8_t> kept,
+               const std::string& what) {
+  const auto tables = static_cast<std::uint32_t>(mode.tables());
+  if (Check bad =
+          check_halves(4 * mode.go.size(), tables, [&](std::uint32_t first, std::uint32_t last) {
+            return check_costs(mode, kept, what, first, last);
+          }))
+    return bad;
   for (std::size_t i = 0; i < mode.arrived.size(); ++i) {
     if (mode.headings == kMaxHeadings || mode.arrived[i] >> mode.headings == 0) continue;
     return finding("arrived", "CTRL", 0,
@@ -327,11 +381,16 @@ std::uint32_t usual_step(std::span<const Sample> samples) {
   std::vector<std::uint32_t> steps;
   for (const Sample& s : samples)
     if (s.kept != 0) steps.push_back(s.step_length);
-  std::sort(steps.begin(), steps.end());
   if (steps.empty()) return 0;
-  const std::uint32_t least = steps[steps.size() * 95 / 100] / 4;
-  const auto first = std::upper_bound(steps.begin(), steps.end(), least);
-  return first == steps.end() ? 0 : *(first + (steps.end() - first) / 2);
+  const auto fast = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() * 95 / 100);
+  std::nth_element(steps.begin(), fast, steps.end());
+  const std::uint32_t least = *fast / 4;
+  const auto first = std::partition(steps.begin(), steps.end(),
+                                    [least](std::uint32_t step) { return step <= least; });
+  if (first == steps.end()) return 0;
+  const auto middle = first + (steps.end() - first) / 2;
+  std::nth_element(first, middle, steps.end());
+  return *middle;
 }
 
 // Over a stride or so of the clip, so that it does not swing with every step of a leg.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bulk.h"
+
 namespace vsprite::detail {
 namespace {
 
@@ -56,12 +58,13 @@ std::uint32_t make_move(const SpriteData& data, const ControlMode& mode, std::ui
          std::min<std::uint32_t>(data.samples[from].duration, kLongShown) << kMoveShownShift;
 }
 
-TickTable make_tick_table(const SpriteData& data, const ControlMode& mode) {
-  const auto n = static_cast<std::uint32_t>(data.samples.size());
-  TickTable table{mode.headings + 2, mode.stages, mode.stages + 2, {}};
-  table.lines.resize((n * table.stride() + 15) / 16);
-  std::uint32_t* at = reinterpret_cast<std::uint32_t*>(table.lines.data());
-  for (std::uint32_t i = 0; i < n; ++i) {
+namespace {
+
+void fill_records(const SpriteData& data, const ControlMode& mode, TickTable& table,
+                  std::uint32_t first, std::uint32_t last) {
+  const std::size_t n = data.samples.size();
+  std::uint32_t* at = table.lines[0].words + first * table.stride();
+  for (std::uint32_t i = first; i < last; ++i) {
     const Sample& sample = data.samples[i];
     for (std::uint32_t g = 0; g < table.groups; ++g) {
       const bool bends = mode.bend_sin != 0 && g < mode.headings;
@@ -77,6 +80,19 @@ TickTable make_tick_table(const SpriteData& data, const ControlMode& mode) {
       }
     }
   }
+}
+
+}  // namespace
+
+TickTable make_tick_table(const SpriteData& data, const ControlMode& mode) {
+  const auto n = static_cast<std::uint32_t>(data.samples.size());
+  TickTable table{mode.headings + 2, mode.stages, mode.stages + 2, {}};
+  const std::size_t lines = (n * table.stride() + 15) / 16;
+  table.lines = std::make_unique_for_overwrite<TickTable::Line[]>(lines);
+  prefer_large_pages(table.lines.get(), lines * sizeof(TickTable::Line));
+  run_halves(lines * sizeof(TickTable::Line), n, [&](std::uint32_t first, std::uint32_t last) {
+    fill_records(data, mode, table, first, last);
+  });
   return table;
 }
 

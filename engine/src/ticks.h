@@ -15,7 +15,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "vsprite/sprite.h"
 
@@ -38,11 +38,11 @@ struct TickTable {
   std::uint32_t groups = 0;
   std::uint32_t stages = 0;
   std::uint32_t words = 0;  ///< of a record
-  std::vector<Line> lines;
+  std::unique_ptr<Line[]> lines;
 
   std::size_t stride() const noexcept { return std::size_t{groups} * words; }
   const std::uint32_t* record(std::uint32_t sample, std::uint32_t group) const noexcept {
-    const auto* first = reinterpret_cast<const std::uint32_t*>(lines.data());
+    const auto* first = lines[0].words;
     return first + sample * stride() + group * words;
   }
 };
