@@ -36,7 +36,7 @@ inline constexpr const char* kUsage =
     "usage: %s [PACK] [options]      PACK: a .vsp file made by `vsprite build` (%s)\n\n"
     "  --headless       no window: draws into memory, one frame a tick\n"
     "  --frames N       ends after N ticks of the film\n"
-    "  --keys SCRIPT    \"0.0 right; 2.5 right+up; 4.0 none\", or a file with one entry a line\n"
+    "  --keys SCRIPT    \"0.0 right; 2.5 play jump 4; 4.0 none\", or a file with one entry a line\n"
     "  --record FILE    .mp4: a film of the run; .png: its last frame\n"
     "  --seed N         another course of chance (0)\n"
     "  --fade LENGTH    of the cross-fade over a jump: auto (by its cost), off, or 2 to 6 ticks "
@@ -96,13 +96,15 @@ inline Result<Arguments> parse_arguments(int argc, char** argv, const std::strin
 }
 
 /// What the arguments say about a run.
-inline SessionConfig session_config(const char* title, double fps, const Arguments& arguments) {
+inline SessionConfig session_config(const char* title, double fps, const Arguments& arguments,
+                                    const Sprite* sprite = nullptr) {
   return {.title = title,
           .fps = fps,
           .headless = arguments.headless,
           .full_screen = arguments.full_screen,
           .frames = arguments.frames,
           .keys = arguments.keys,
+          .sprite = sprite,
           .record = arguments.record};
 }
 

@@ -58,6 +58,9 @@ Result<Session> Session::open(const SessionConfig& wanted) {
   if (!config.keys.empty()) {
     Result<KeyScript> loaded = load_key_script(config.keys, config.fps);
     if (!loaded) return std::move(loaded).error();
+    if (config.sprite != nullptr) {
+      if (auto known = check_key_script(*config.sprite, *loaded); !known) return known.error();
+    }
     script = std::move(*loaded);
   }
   const bool film = ends_with(config.record, ".mp4");
@@ -176,6 +179,10 @@ Direction Session::direction() const noexcept {
 }
 
 bool Session::is_scripted() const noexcept { return impl_->script.has_value(); }
+void Session::play_actions(const Sprite& sprite, Actor& actor) const noexcept {
+  if (impl_->script) play_script(sprite, *impl_->script, impl_->tick, actor);
+}
+
 std::uint64_t Session::tick() const noexcept { return impl_->tick; }
 
 float Session::fraction() const noexcept {

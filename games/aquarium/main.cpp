@@ -149,6 +149,7 @@ class Game {
 
   void tick() {
     const vsprite::Actor before = world_.fish[0].actor;
+    session_.play_actions(sprite_, world_.fish[0].actor);
     step(sprite_, world_, read_input());
     const vsprite::Actor& after = world_.fish[0].actor;
     if (after.tick != before.tick)  // a pause shows the last one
@@ -208,7 +209,7 @@ Result<void> play(const vsprite::games::Arguments& arguments, const Options& opt
   Result<Sprite> sprite = vsprite::load_pack(arguments.pack);
   if (!sprite) return sprite.error();
   vsprite::SessionConfig config =
-      vsprite::games::session_config("aquarium", sprite->fps(), arguments);
+      vsprite::games::session_config("aquarium", sprite->fps(), arguments, &*sprite);
   config.width = options.width;
   config.height = options.height;
   if (options.quality) config.resolution = resolution_of(*options.quality, options.height);

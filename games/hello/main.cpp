@@ -17,7 +17,8 @@ Result<void> run_hello(const games::Arguments& arguments) {
   PackWatch watch(arguments.pack);
   Result<Sprite> sprite = load_pack(arguments.pack);
   if (!sprite) return sprite.error();
-  Result<Session> session = Session::open(games::session_config("hello", sprite->fps(), arguments));
+  Result<Session> session =
+      Session::open(games::session_config("hello", sprite->fps(), arguments, &*sprite));
   if (!session) return session.error();
 
   Renderer& screen = session->renderer();
@@ -35,6 +36,7 @@ Result<void> run_hello(const games::Arguments& arguments) {
     }
     while (session->next_tick()) {
       set_direction(*sprite, actor, session->direction());
+      session->play_actions(*sprite, actor);
       step(*sprite, actor);
       follow(*sprite, actor, fade, arguments.fade);
       games::wrap(*sprite, actor, screen.width(), screen.height());

@@ -29,6 +29,7 @@ Result<void> run(const games::Arguments& arguments) {
   if (!sprite) return sprite.error();
   const Result<KeyScript> script = load_key_script(arguments.keys, sprite->fps());
   if (!script) return script.error();
+  if (auto known = check_key_script(*sprite, *script); !known) return known.error();
   if (arguments.headless) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
   SDL_Window* window = nullptr;
   SDL_Renderer* renderer = nullptr;
@@ -57,6 +58,7 @@ Result<void> run(const games::Arguments& arguments) {
       frames.emplace(*sprite);
     }
     set_direction(*sprite, actor, arguments.keys.empty() ? held_keys() : script->at(actor.tick));
+    play_script(*sprite, *script, actor.tick, actor);
     step(*sprite, actor);
     follow(*sprite, actor, fade, arguments.fade);
     games::wrap(*sprite, actor, 1280, 720);

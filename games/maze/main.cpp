@@ -118,7 +118,8 @@ Result<void> run_maze(const games::Arguments& arguments) {
   if (!sprite) return sprite.error();
   Result<std::vector<PackClip>> clips = load_clips(arguments.pack, *sprite);
   if (!clips) return clips.error();
-  Result<Session> session = Session::open(games::session_config("maze", sprite->fps(), arguments));
+  Result<Session> session =
+      Session::open(games::session_config("maze", sprite->fps(), arguments, &*sprite));
   if (!session) return session.error();
 
   Renderer& screen = session->renderer();
@@ -138,10 +139,12 @@ Result<void> run_maze(const games::Arguments& arguments) {
         begin(world, attract, *sprite, actor, arguments.seed);
         world.is_played = true;
       }
-      if (world.is_played)
+      if (world.is_played) {
+        session->play_actions(*sprite, actor);
         play_tick(world, *sprite, actor, direction);
-      else
+      } else {
         attract_tick(world, attract, *sprite, actor);
+      }
       if (world.is_played && world.idle > kIdle)
         begin(world, attract, *sprite, actor, arguments.seed);
       follow(*sprite, actor, fade, arguments.fade);

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// tiny_pack FILE [N] - writes the tiny sprite as a pack, for the tests that run whole programs; or
-// a pack of N samples of 2 x 2 px that go right and round, for those of what many samples do.
+// tiny_pack FILE [N|acting] - writes the tiny sprite as a pack, for the tests that run whole
+// programs; or a pack of N samples of 2 x 2 px that go right and round, for those of what many
+// samples do; or the tiny sprite with actions.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <string_view>
 
+#include "support/naive_actions.h"
 #include "support/tiny_sprite.h"
 #include "vsprite/pack.h"
 
@@ -48,8 +51,10 @@ vsprite::SpriteData long_run(std::uint32_t n) {
 
 int main(int argc, char** argv) {
   if (argc != 2 && argc != 3) return 2;
-  const bool is_long = argc == 3;
-  const vsprite::SpriteData data = is_long
+  const bool acts = argc == 3 && std::string_view(argv[2]) == "acting";
+  const bool is_long = argc == 3 && !acts;
+  const vsprite::SpriteData data = acts ? vsprite::testing::acting_sprite_data()
+                                   : is_long
                                        ? long_run(static_cast<std::uint32_t>(std::atoi(argv[2])))
                                        : vsprite::testing::tiny_sprite_data();
   const auto picture = [&](std::uint32_t sample) -> vsprite::Result<vsprite::Image> {

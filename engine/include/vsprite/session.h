@@ -26,6 +26,9 @@
 
 namespace vsprite {
 
+struct Actor;
+class Sprite;
+
 struct SessionConfig {
   std::string title = "vsprite";
   int width = 1280;  ///< of the window; headless and films: of the frame, pixels
@@ -36,13 +39,15 @@ struct SessionConfig {
   bool full_screen = false;
   std::uint64_t frames = 0;  ///< ticks until it ends; 0: until closed (headless: 300)
   std::string keys{};    ///< a key script, or the name of a file with one; empty: the player's keys
+  const Sprite* sprite = nullptr;  ///< whose actions the script plays: open() refuses any other
   std::string record{};  ///< .mp4: a film; .png: the last frame; empty: nothing
   RendererConfig renderer{};
 };
 
 class Session {
  public:
-  /// Errors: those of Window::open, make_renderer, load_key_script and FilmWriter::open.
+  /// Errors: those of Window::open, make_renderer, load_key_script, check_key_script and
+  /// FilmWriter::open.
   static Result<Session> open(const SessionConfig& config);
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
@@ -61,6 +66,8 @@ class Session {
 
   Direction direction() const noexcept;  ///< scripted, or the player's
   bool is_scripted() const noexcept;
+  /// Does what the script says of actions in this tick: before the step. Without a script nothing.
+  void play_actions(const Sprite& sprite, Actor& actor) const noexcept;
   std::uint64_t tick() const noexcept;  ///< the tick being made: 0 in the first next_tick()
   float fraction() const noexcept;      ///< of a tick that has passed since the last one, [0, 1)
   double seconds() const noexcept;      ///< of play: ticks and fraction
