@@ -93,9 +93,10 @@ struct DenseJoint {
 };
 
 /// One direction by the plain loop: V = 0, sweeps in order until the largest change is below
-/// 0.05 (1 - alpha). Returns the number of sweeps.
-inline int plain_iteration(const CostTable& costs, const std::vector<float>& arrive, float alpha,
-                           std::vector<float>& values) {
+/// 0.05 (1 - alpha), at most `most`. Returns the number of sweeps, as far as they were left out
+/// from the last change, which shrinks by alpha a sweep.
+inline double plain_iteration(const CostTable& costs, const std::vector<float>& arrive, float alpha,
+                              std::vector<float>& values, int most) {
   const std::size_t n = costs.kept.size();
   values.assign(n, 0);
   std::vector<float> after(n, 0);
@@ -111,7 +112,9 @@ inline int plain_iteration(const CostTable& costs, const std::vector<float>& arr
       change = std::max(change, std::fabs(best - values[i]));
     }
     values.swap(after);
-    if (change < 0.05f * (1 - alpha)) return sweep;
+    const float due = 0.05f * (1 - alpha);
+    if (change < due) return sweep;
+    if (sweep == most) return sweep + std::log(double{due / change}) / std::log(double{alpha});
   }
 }
 
