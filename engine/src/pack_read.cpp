@@ -513,10 +513,13 @@ Check read_modes(const ByteSource& source, const PackContent& content,
 // The two kinds of large tables, side by side.
 Check read_tables(const ByteSource& source, PackContent& content) {
   const SectionEntry& transitions = entry_of(content, "TRAN");
+  std::uint64_t bytes = transitions.bytes;
+  for (const SectionEntry& entry : content.sections)
+    bytes += entry.name == "CTRL" ? entry.bytes : 0;
   Check bad_transitions, bad_modes;
   std::vector<ControlMode> modes;
   run_both(
-      source.is_shared() ? transitions.bytes : 0,
+      source.is_shared() ? bytes : 0,
       [&] {
         SectionReader section(source, transitions);
         bad_transitions = section.finish(read_transitions(section, content.data));

@@ -274,32 +274,40 @@ Check check_entry(const SpriteData& data, const ControlMode& mode, std::size_t t
              "next is sample " + number(to) + ", but there is no such transition");
 }
 
-// Sixteen samples of all tables at a time: their transitions stay at hand, and most of what one
-// table leads to, others lead to as well, which is remembered.
-Check check_entries(const SpriteData& data, const ControlMode& mode, const std::string& what,
+// A sample at a time: all that it may lead to is marked with its number, then every table's entry
+// is looked up. check_entry says what is wrong.
+Check check_entries(const SpriteData& data, const ControlMode& mode,
+                    std::span<const std::uint8_t> kept, const std::string& what,
                     std::uint32_t first, std::uint32_t last) {
-  constexpr std::uint32_t kBlock = 16, kPlaces = 32;
-  const std::size_t n = data.samples.size(), tables = mode.tables();
-  std::array<std::array<std::uint32_t, kPlaces>, kBlock> good;
-  for (; first < last; first += kBlock) {
-    const std::uint32_t count = std::min(last - first, kBlock);
-    for (auto& places : good)  // what belongs to no place
-      for (std::uint32_t p = 0; p < kPlaces; ++p) places[p] = p ^ 1u;
-    for (std::size_t table = 0; table < tables; ++table) {
-      const std::uint32_t* next = mode.next.data() + table * n + first;
-      for (std::uint32_t k = 0; k < count; ++k) {
-        std::uint32_t& place = good[k][next[k] % kPlaces];
-        if (place == next[k]) continue;
-        if (Check bad = check_entry(data, mode, table, first + k, what)) return bad;
-        place = next[k];
-      }
+  const auto n = static_cast<std::uint32_t>(kept.size());
+  const auto tables = static_cast<std::uint32_t>(mode.tables());
+  std::vector<std::uint32_t> led_from(n, kNoSample);
+  const auto mark = [&](std::uint32_t i) {
+    for (std::uint32_t k = data.row_start[i]; k < data.row_start[i + 1]; ++k)
+      led_from[data.transitions[k].to] = i;
+    if (i + 1 < n && kept[i + 1] != 0 && is_natural(data, i, i + 1)) led_from[i + 1] = i;
+    if (mode.plays_through && is_skip(data, i, i + 2)) led_from[i + 2] = i;
+  };
+  Check bad;
+  for_each_sample(mode, n, first, last, [&](std::uint32_t i, const std::uint32_t* next) {
+    if (bad) return;
+    unsigned all = 1;
+    if (kept[i] != 0) {
+      mark(i);
+      for (std::uint32_t t = 0; t < tables; ++t)
+        all &= unsigned{led_from[std::min(next[t], n - 1)] == i} & unsigned{next[t] < n};
+    } else {
+      for (std::uint32_t t = 0; t < tables; ++t) all &= unsigned{next[t] == kNoSample};
     }
-  }
-  return {};
+    for (std::uint32_t t = 0; all == 0 && t < tables && !bad; ++t)
+      bad = check_entry(data, mode, t, i, what);
+  });
+  return bad;
 }
 
 // Every kept sample must lead to a kept one along a transition that exists.
-Check check_next(const SpriteData& data, const ControlMode& mode, const std::string& what) {
+Check check_next(const SpriteData& data, const ControlMode& mode,
+                 std::span<const std::uint8_t> kept, const std::string& what) {
   const std::size_t n = data.samples.size(), tables = mode.tables();
   if (mode.next.size() != tables * n || mode.go.size() != tables * n ||
       mode.arrived.size() != (mode.by_state ? n : 0)) {
@@ -309,7 +317,7 @@ Check check_next(const SpriteData& data, const ControlMode& mode, const std::str
   }
   return check_halves(4 * tables * n, static_cast<std::uint32_t>(n),
                       [&](std::uint32_t first, std::uint32_t last) {
-                        return check_entries(data, mode, what, first, last);
+                        return check_entries(data, mode, kept, what, first, last);
                       });
 }
 
@@ -361,7 +369,7 @@ Check check_modes(const SpriteData& data) {
   for (std::size_t m = 0; m < data.modes.size(); ++m) {
     const std::string what = "mode " + number(m) + ": ";
     if (Check bad = check_mode_settings(data.modes[m], what)) return bad;
-    if (Check bad = check_next(data, data.modes[m], what)) return bad;
+    if (Check bad = check_next(data, data.modes[m], kept, what)) return bad;
     if (Check bad = check_go(data.modes[m], kept, what)) return bad;
     for (std::size_t other = 0; other < m; ++other) {
       if (data.modes[other].name == data.modes[m].name) {

@@ -14,6 +14,8 @@
 // one cache line, two in a mode of many stages.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 
@@ -46,6 +48,25 @@ struct TickTable {
     return first + sample * stride() + group * words;
   }
 };
+
+/// Calls job(i, next) for the samples from `first` to before `last`, where next[table] is what that
+/// table leads to from i. Sixteen samples of all tables are copied at a time: whole cache lines,
+/// however far apart the tables lie. Pre: at most 256 tables.
+template <class Job>
+void for_each_sample(const ControlMode& mode, std::uint32_t n, std::uint32_t first,
+                     std::uint32_t last, const Job& job) {
+  constexpr std::uint32_t kColumns = 16, kMost = 256;
+  const auto tables = static_cast<std::uint32_t>(mode.tables());
+  std::array<std::uint32_t, kColumns * kMost> block;
+  for (; first < last; first += kColumns) {
+    const std::uint32_t count = std::min(last - first, kColumns);
+    for (std::uint32_t t = 0; t < tables; ++t) {
+      const std::uint32_t* from = mode.next.data() + std::size_t{t} * n + first;
+      for (std::uint32_t k = 0; k < count; ++k) block[k * kMost + t] = from[k];
+    }
+    for (std::uint32_t k = 0; k < count; ++k) job(first + k, block.data() + k * kMost);
+  }
+}
 
 /// `data` has been checked.
 TickTable make_tick_table(const SpriteData& data, const ControlMode& mode);

@@ -214,4 +214,36 @@ inline Image tiny_picture(const SpriteData& data, std::uint32_t sample) {
 /// Without pictures.
 inline Sprite tiny_sprite() { return *make_sprite(tiny_sprite_data()); }
 
+/// `n` samples of 2 x 2 px that go right and round, one transition each.
+inline SpriteData long_sprite_data(std::uint32_t n) {
+  SpriteData data = tiny_sprite_data();
+  Sample sample = data.samples[1];
+  sample.width = sample.height = 2;
+  sample.anchor = {1, 1};
+  data.tags = {""};
+  data.samples.assign(n, sample);
+  data.row_start.assign(1, 0);
+  data.transitions.clear();
+  data.start_sample = 0;
+  ControlMode mode = data.modes[0];
+  mode.stages = 1;
+  mode.served = mode.served_headings = 1;
+  mode.table_of.fill(Direction::Right);
+  std::vector<std::uint32_t> next;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    data.samples[i].frame = i;
+    if (i + 2 >= n) data.samples[i].skip_cost = std::numeric_limits<float>::infinity();
+    const bool last = i + 1 == n;
+    data.transitions.push_back({last ? 0 : i + 1, last ? 0.1f : 0.0f});
+    data.row_start.push_back(i + 1);
+    next.push_back(data.transitions.back().to);
+  }
+  mode.next.clear();
+  for (std::size_t t = 0; t < mode.tables(); ++t)
+    mode.next.insert(mode.next.end(), next.begin(), next.end());
+  mode.go.assign(mode.next.size(), 0);
+  data.modes.assign(1, mode);
+  return data;
+}
+
 }  // namespace vsprite::testing

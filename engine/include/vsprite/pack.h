@@ -27,7 +27,9 @@ inline constexpr std::uint16_t kPackMinor = 0;
 /// Reads header and tables and checks every count before memory is taken, every index, order and
 /// range. Pictures stay in the file, which remains open, and are checked when decoded. The file is
 /// read, not mapped: whoever cuts a mapped file short kills the process that touches the lost page
-/// (SIGBUS), while a read just fails, and costs pictures. Cost: O(tables), about 1 ms a MB.
+/// (SIGBUS), while a read just fails, and costs pictures. Cost: O(tables), about 1 ms a MB; tables of
+/// 4 MB and more are read and checked by two threads, if there are two, which have ended when it
+/// returns.
 /// Errors: NotFound, CannotRead, BadFormat, UnsupportedVersion, CorruptData, LimitExceeded,
 /// OutOfMemory.
 Result<Sprite> load_pack(const std::string& path);
@@ -37,8 +39,8 @@ struct PackReader {
   std::uint64_t bytes = 0;  ///< of the whole pack
   std::string name;         ///< for messages
   /// Fills `out` with the bytes from `offset` on, all of which lie inside `bytes`; false where that
-  /// is not possible. Called by any thread that decodes a picture, by several at once; must not
-  /// throw.
+  /// is not possible. Called by the thread that opens the pack, later by any that decodes a picture,
+  /// by several at once; must not throw.
   std::function<bool(std::uint64_t offset, std::span<std::uint8_t> out)> read;
 };
 /// The same from there; the sprite keeps the reader. Errors: those of load_pack.
