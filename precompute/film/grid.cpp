@@ -135,24 +135,9 @@ Mask spread_disc(const Mask& mask, int radius, bool larger) {
   return spread(mask, square, radius - square, larger);
 }
 
-// Rows: a running sum in double, so that what leaves the box leaves nothing behind; small boxes
-// directly.
+// A running sum in double, so that what leaves the box leaves nothing behind.
 void blur_rows(const float* in, float* out, int width, int height, int radius) {
   const float scale = 1.0f / static_cast<float>(2 * radius + 1);
-  if (radius == 2 && width > 4) {
-    for (int y = 0; y < height; ++y, in += width, out += width)
-      lanes().blur5_row(in, width, scale, out);
-    return;
-  }
-  if (radius == 1 && width > 2) {
-    for (int y = 0; y < height; ++y, in += width, out += width) {
-      for (int x = 0; x < width; ++x) out[x] = in[x];
-      for (int x = 0; x < width - 1; ++x) out[x] += in[x + 1];
-      for (int x = 1; x < width; ++x) out[x] += in[x - 1];
-      for (int x = 0; x < width; ++x) out[x] *= scale;
-    }
-    return;
-  }
   for (int y = 0; y < height; ++y, in += width, out += width) {
     double sum = 0;
     for (int x = 0; x < std::min(radius, width); ++x) sum += static_cast<double>(in[x]);
@@ -166,26 +151,6 @@ void blur_rows(const float* in, float* out, int width, int height, int radius) {
 
 void blur_columns(const float* in, float* out, int width, int height, int radius) {
   const float scale = 1.0f / static_cast<float>(2 * radius + 1);
-  if (radius <= 2) {
-    for (int y = 0; y < height; ++y, out += width) {
-      const float* middle = in + static_cast<std::ptrdiff_t>(y) * width;
-      if (radius == 2 && y >= 2 && y + 2 < height) {
-        lanes().blur5_column(middle, width, width, scale, out);
-        continue;
-      }
-      for (int x = 0; x < width; ++x) out[x] = middle[x];
-      for (int k = 1; k <= radius; ++k) {
-        const float* above = middle - static_cast<std::ptrdiff_t>(k) * width;
-        const float* below = middle + static_cast<std::ptrdiff_t>(k) * width;
-        if (y >= k)
-          for (int x = 0; x < width; ++x) out[x] += above[x];
-        if (y + k < height)
-          for (int x = 0; x < width; ++x) out[x] += below[x];
-      }
-      for (int x = 0; x < width; ++x) out[x] *= scale;
-    }
-    return;
-  }
   std::vector<double> sums(static_cast<std::size_t>(width), 0.0);
   const auto row = [&](int y) { return in + static_cast<std::ptrdiff_t>(y) * width; };
   for (int y = 0; y < std::min(radius, height); ++y)
@@ -209,6 +174,19 @@ Mask dilate(const Mask& mask, int radius) { return spread(mask, radius, 0, true)
 Mask erode(const Mask& mask, int radius) { return spread(mask, radius, 0, false); }
 Mask dilate_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, true); }
 Mask erode_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, false); }
+
+Mask grow_into(const Mask& room, const Mask& mask, int steps) {
+  const Bits open = pack(room, false);
+  Bits bits = pack(mask, false);
+  for (int step = 0; step < steps; ++step) {
+    const std::vector<std::uint64_t> before = bits.in;
+    grow_square(bits, 1);
+    for (std::size_t k = 0; k < bits.in.size(); ++k)
+      bits.in[k] = (bits.in[k] & open.in[k]) | before[k];
+    if (bits.in == before) break;
+  }
+  return unpack(bits, false);
+}
 
 void blur(std::vector<float>& plane, int width, int height, int radius, int passes,
           std::vector<float>& scratch) {

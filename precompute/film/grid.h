@@ -67,6 +67,9 @@ Mask erode(const Mask& mask, int radius);
 Mask dilate_disc(const Mask& mask, int radius);
 Mask erode_disc(const Mask& mask, int radius);
 
+/// `mask` and what of `room` it reaches in `steps` steps to the eight neighbours.
+Mask grow_into(const Mask& room, const Mask& mask, int steps);
+
 /// Sum over boxes of 2 radius + 1, `passes` times in both directions, divided by the box: near
 /// Gaussian of variance passes ((2 radius + 1)^2 - 1) / 12. Outside is 0. `scratch` is working
 /// room.

@@ -6,7 +6,9 @@
 #include "film/lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "film/lanes.cpp"
@@ -210,22 +212,30 @@ void unpack_bits(const std::uint64_t* __restrict bits, int n, bool complement,
     out[x] = static_cast<std::uint8_t>(((bits[x / 64] >> (x % 64)) & 1) ^ (complement ? 1 : 0));
 }
 
-void blur5_row(const float* __restrict in, int n, float scale, float* __restrict out) {
-  out[0] = (in[0] + in[1] + in[2]) * scale;
-  out[1] = (in[1] + in[2] + in[0] + in[3]) * scale;
-  for (int x = 2; x + 2 < n; ++x)
-    out[x] = (in[x] + in[x + 1] + in[x - 1] + in[x + 2] + in[x - 2]) * scale;
-  out[n - 2] = (in[n - 2] + in[n - 1] + in[n - 3] + in[n - 4]) * scale;
-  out[n - 1] = (in[n - 1] + in[n - 2] + in[n - 3]) * scale;
-}
-
-void blur5_column(const float* __restrict middle, std::ptrdiff_t stride, int n, float scale,
-                  float* __restrict out) {
-  const float* __restrict a = middle - stride;
-  const float* __restrict b = middle + stride;
+void sum5(const float* __restrict in, std::ptrdiff_t stride, std::size_t n, float scale,
+          float* __restrict out) {
+  const float* __restrict a = in - stride;
+  const float* __restrict b = in + stride;
   const float* __restrict aa = a - stride;
   const float* __restrict bb = b + stride;
-  for (int x = 0; x < n; ++x) out[x] = (middle[x] + a[x] + b[x] + aa[x] + bb[x]) * scale;
+  if (stride == 1)
+    for (std::size_t x = 0; x < n; ++x) out[x] = (in[x] + b[x] + a[x] + bb[x] + aa[x]) * scale;
+  else
+    for (std::size_t x = 0; x < n; ++x) out[x] = (in[x] + a[x] + b[x] + aa[x] + bb[x]) * scale;
+}
+
+void sum3(const float* __restrict in, std::size_t n, float* __restrict out) {
+  const float* __restrict a = in - 1;
+  const float* __restrict b = in + 1;
+  for (std::size_t x = 0; x < n; ++x) out[x] = a[x] + in[x] + b[x];
+}
+
+void add_far(const float* __restrict middle, std::ptrdiff_t stride, const float* __restrict far,
+             float whole, int n, float* __restrict out) {
+  const float* __restrict a = middle - stride;
+  const float* __restrict b = middle + stride;
+  constexpr float kNinth = 1.0f / 9;
+  for (int x = 0; x < n; ++x) out[x] = kNinth * (a[x] + middle[x] + b[x]) + far[x] + whole;
 }
 
 void blur3(const float* __restrict in, int width, int height, float* __restrict rows,
@@ -473,13 +483,15 @@ void project_block(const ProjectionRow& row, float spill, int at) {
   }
 }
 
-bool modes(const std::uint8_t* __restrict seeds, const std::uint8_t* __restrict region, bool means,
-           std::size_t n, std::uint8_t* __restrict mode, float* __restrict alpha) {
+bool modes(const std::uint8_t* __restrict seeds, const std::uint8_t* __restrict region,
+           const std::uint8_t* __restrict means, std::size_t n, std::uint8_t* __restrict mode,
+           float* __restrict alpha) {
+  const std::uint8_t* __restrict wanted = means ? means : seeds;
   const int known = means ? 1 : 0;
   int most = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const int open = region[i] ? 2 : 0;
-    const int m = seeds[i] ? known : open;
+    const int m = seeds[i] ? known & wanted[i] : open;
     mode[i] = static_cast<std::uint8_t>(m);
     most |= m;
   }
@@ -634,6 +646,15 @@ void encode_weighted(const float* __restrict weight, float* __restrict plane, st
   for (std::size_t i = 0; i < n; ++i) plane[i] = weight[i] * encode(plane[i]);
 }
 
+// Four codes 0..255 as one word, which lanes store without shuffling bytes.
+inline void store_rgba(int r, int g, int b, int a, std::uint8_t* rgba) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::uint32_t word = static_cast<std::uint32_t>(r) | static_cast<std::uint32_t>(g) << 8 |
+                             static_cast<std::uint32_t>(b) << 16 |
+                             static_cast<std::uint32_t>(a) << 24;
+  std::memcpy(rgba, &word, sizeof word);
+}
+
 void paint_filmed(const RgbOfYcc& m, const std::uint8_t* __restrict y,
                   const std::uint8_t* __restrict cb, const std::uint8_t* __restrict cr, int n,
                   std::uint8_t* __restrict rgba) {
@@ -645,10 +666,7 @@ void paint_filmed(const RgbOfYcc& m, const std::uint8_t* __restrict y,
     const int r = std::min(std::max((base + m.red_of_cr * v) >> 16, 0), 255);
     const int g = std::min(std::max((base + m.green_of_cb * u + m.green_of_cr * v) >> 16, 0), 255);
     const int b = std::min(std::max((base + m.blue_of_cb * u) >> 16, 0), 255);
-    rgba[4 * i] = static_cast<std::uint8_t>(r);
-    rgba[4 * i + 1] = static_cast<std::uint8_t>(g);
-    rgba[4 * i + 2] = static_cast<std::uint8_t>(b);
-    rgba[4 * i + 3] = 255;
+    store_rgba(r, g, b, 255, rgba + 4 * i);
   }
 }
 
@@ -679,12 +697,29 @@ void paint_own(const PaintRow& row, int n, std::uint8_t* __restrict rgba) {
     const float lift = a * a * (encode(seen) - encode(expected));
     const int keep = alpha[i] ? -1 : 0;
     const auto code = [lift, keep](float v) {
-      return static_cast<std::uint8_t>(static_cast<int>(bounded(v + lift + 0.5f, 0, 255)) & keep);
+      return static_cast<int>(bounded(v + lift + 0.5f, 0, 255)) & keep;
     };
-    rgba[4 * i] = code(r);
-    rgba[4 * i + 1] = code(g);
-    rgba[4 * i + 2] = code(b);
-    rgba[4 * i + 3] = alpha[i];
+    store_rgba(code(r), code(g), code(b), alpha[i], rgba + 4 * i);
+  }
+}
+
+void cover(const std::uint8_t* __restrict top, const std::uint8_t* __restrict low, int n,
+           std::uint8_t* __restrict some, std::uint8_t* __restrict half) {
+  for (int i = 0; i < n; ++i) {
+    const int sum = top[2 * i] + top[2 * i + 1] + low[2 * i] + low[2 * i + 1];
+    some[i] = sum > 0 ? 1 : 0;
+    half[i] = sum >= 510 ? 1 : 0;
+  }
+}
+
+void name_pixels(const std::uint8_t* __restrict alpha, const int* __restrict label, int n,
+                 std::uint8_t* __restrict out) {
+  for (int i = 0; i < n; ++i) {
+    const auto name = static_cast<std::uint8_t>(label[i]);
+    const std::uint8_t left = alpha[2 * i] ? name : std::uint8_t{0};
+    const std::uint8_t right = alpha[2 * i + 1] ? name : std::uint8_t{0};
+    out[2 * i] = left;
+    out[2 * i + 1] = right;
   }
 }
 
@@ -698,15 +733,16 @@ std::uint32_t difference(const std::uint8_t* __restrict a, const std::uint8_t* _
 }  // namespace
 
 const Lanes* get_lanes() {
-  static constexpr Lanes kLanes = {count_different, sum_cells,       contrast,  look_up,
-                                   shift,           forgive_shadows, above,     spread_into,
-                                   pack_bits,       unpack_bits,     blur5_row, blur5_column,
-                                   blur3,           gamut_bound,     key_share, distance,
-                                   score,           moments,         mix,       double_row,
-                                   project,         modes,           set_sure,  weigh_rim,
-                                   detail,          halve,           gain,      mark_inner,
-                                   multiply,        raise_alpha,     settle,    own_color,
-                                   encode_weighted, paint_filmed,    paint_own, difference};
+  static constexpr Lanes kLanes = {count_different, sum_cells,       contrast,     look_up,
+                                   shift,           forgive_shadows, above,        spread_into,
+                                   pack_bits,       unpack_bits,     sum5,         sum3,
+                                   add_far,         blur3,           gamut_bound,  key_share,
+                                   distance,        score,           moments,      mix,
+                                   double_row,      project,         modes,        set_sure,
+                                   weigh_rim,       detail,          halve,        gain,
+                                   mark_inner,      multiply,        raise_alpha,  settle,
+                                   own_color,       encode_weighted, paint_filmed, paint_own,
+                                   cover,           name_pixels,     difference};
   return &kLanes;
 }
 

@@ -109,9 +109,13 @@ struct Lanes {
   /// `bits`: whole words, what is left of the last is 0; eight bytes more may be read.
   void (*pack_bits)(const std::uint8_t* in, int n, bool complement, std::uint64_t* bits);
   void (*unpack_bits)(const std::uint64_t* bits, int n, bool complement, std::uint8_t* out);
-  /// Sums of five, times `scale`: along a row of n >= 5, outside is 0; and over five rows.
-  void (*blur5_row)(const float* in, int n, float scale, float* out);
-  void (*blur5_column)(const float* middle, std::ptrdiff_t stride, int n, float scale, float* out);
+  /// Sums of five values `stride` apart times `scale`, n of them; two before and behind are read.
+  void (*sum5)(const float* in, std::ptrdiff_t stride, std::size_t n, float scale, float* out);
+  /// Sums of three neighbours, n of them; one before and behind is read.
+  void (*sum3)(const float* in, std::size_t n, float* out);
+  /// out = mean of nine, given three rows' sums of three `stride` apart, + far + whole.
+  void (*add_far)(const float* middle, std::ptrdiff_t stride, const float* far, float whole, int n,
+                  float* out);
   /// Means over 3 x 3, outside is 0. `scratch` and `out` are as large as `in`.
   void (*blur3)(const float* in, int width, int height, float* scratch, float* out);
   /// Alpha below this puts F outside the gamut; two sigma of noise are taken off.
@@ -133,10 +137,10 @@ struct Lanes {
   void (*double_row)(const float* in, int n, float* out);
   /// The cells of a row from `begin` to `end`; blocks of lanes reach over them inside 0..n.
   void (*project)(const ProjectionRow& row, float spill, int begin, int end, int n);
-  /// Modes of a row (above): seeds are known, the rest of the region is not; alpha of seeds is 1,
-  /// else 0. False where nothing is wanted.
-  bool (*modes)(const std::uint8_t* seeds, const std::uint8_t* region, bool means, std::size_t n,
-                std::uint8_t* mode, float* alpha);
+  /// Modes of a row (above): seeds are known, the rest of the region is not; of seeds the mean is
+  /// wanted where `means` (may be null), their alpha is 1, else 0. False where nothing is wanted.
+  bool (*modes)(const std::uint8_t* seeds, const std::uint8_t* region, const std::uint8_t* means,
+                std::size_t n, std::uint8_t* mode, float* alpha);
   /// values = 1 where `seeds`.
   void (*set_sure)(const std::uint8_t* seeds, std::size_t n, float* values);
   /// The weight of a cell's colour in its neighbourhood by how opaque the rim is, and that colour.
@@ -169,6 +173,12 @@ struct Lanes {
   void (*paint_filmed)(const RgbOfYcc& matrix, const std::uint8_t* y, const std::uint8_t* cb,
                        const std::uint8_t* cr, int n, std::uint8_t* rgba);
   void (*paint_own)(const PaintRow& row, int n, std::uint8_t* rgba);
+  /// Of n cells of two rows of pixels: 1 where any of the four has alpha, where they have half of
+  /// it.
+  void (*cover)(const std::uint8_t* top, const std::uint8_t* low, int n, std::uint8_t* some,
+                std::uint8_t* half);
+  /// Two pixels a cell: the cell's label where there is alpha, else 0.
+  void (*name_pixels)(const std::uint8_t* alpha, const int* label, int n, std::uint8_t* out);
   /// Sum of |a - b|.
   std::uint32_t (*difference)(const std::uint8_t* a, const std::uint8_t* b, int n);
 };

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "film/color.h"
 #include "film/coverage.h"
@@ -30,8 +31,7 @@ using detail::Silhouette;
 using detail::Span;
 
 constexpr int kMostBlobs = 32;
-constexpr int kShadow = 6;     // cells around the body where its contact shadow and smear lie
-constexpr int kUntouched = 6;  // cells: deeper in the picture is taken as it is
+constexpr int kShadow = 6;  // cells around the body where its contact shadow and smear lie
 
 }  // namespace
 
@@ -87,7 +87,7 @@ void Keyer::Impl::place(const Frame& frame) {
   stride = 2 * static_cast<std::size_t>(patch.width);
 }
 
-// Linear luma of every pixel less the plate's; what an odd edge lacks repeats the last one.
+// Linear luma of the rim's pixels less the plate's; what an odd edge lacks repeats the last one.
 void Keyer::Impl::measure_detail(const Frame& frame) {
   const auto rows = 2 * static_cast<std::size_t>(patch.height);
   detail.resize(rows * stride);
@@ -95,39 +95,36 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
   std::vector<float> drift(static_cast<std::size_t>(patch.width) + 1);
   const int w = frame.cell_width();
   const double step = w > 1 ? 2.0 / (w - 1) : 0.0;
-  for (int y = 0; y < height; ++y) {
-    if (y % 2 == 0) {
-      // The drift of luma in linear light: slope of the transfer times the drift of the code.
-      const double v = detail::scaled(patch.top + y / 2, frame.cell_height());
-      const auto red = detail::row_of(silhouette.drift, 0, v);
-      const auto green = detail::row_of(silhouette.drift, 1, v);
-      const auto blue = detail::row_of(silhouette.drift, 2, v);
-      const std::size_t from =
-          static_cast<std::size_t>(patch.top + y / 2) * static_cast<std::size_t>(w) +
-          static_cast<std::size_t>(patch.left);
-      const Span span = patch.spans[static_cast<std::size_t>(y / 2)];
-      for (int x = span.begin; x < span.end; ++x) {
-        const float u = static_cast<float>(step * (patch.left + x) - 1);
-        const auto at = [u](detail::RowTerms t) { return t.a + u * (t.b + u * t.c); };
-        drift[static_cast<std::size_t>(x)] =
-            screen->slope[1][from + static_cast<std::size_t>(x)] *
-            (weights.red * at(red) + weights.green * at(green) + weights.blue * at(blue));
-      }
-    }
-    const Span span = patch.spans[static_cast<std::size_t>(y / 2)];
-    if (span.size() == 0) continue;
-    const auto skipped = static_cast<std::size_t>(span.begin);
+  for (const auto& [cell_row, span] : patch.rim) {
+    // The drift of luma in linear light: slope of the transfer times the drift of the code.
+    const double v = detail::scaled(patch.top + cell_row, frame.cell_height());
+    const auto red = detail::row_of(silhouette.drift, 0, v);
+    const auto green = detail::row_of(silhouette.drift, 1, v);
+    const auto blue = detail::row_of(silhouette.drift, 2, v);
     const std::size_t from =
-        static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
-        static_cast<std::size_t>(left) + 2 * skipped;
-    float* out = detail.data() + static_cast<std::size_t>(y) * stride;
-    float* below = plate.data() + static_cast<std::size_t>(y) * stride;
-    lanes().detail(frame.y.data() + from, light, screen->luma.data() + from, drift.data() + skipped,
-                   std::min(2 * span.end, width) - 2 * span.begin, out + 2 * skipped,
-                   below + 2 * skipped);
-    if (2 * span.end > width) {
-      out[width] = out[width - 1];
-      below[width] = below[width - 1];
+        static_cast<std::size_t>(patch.top + cell_row) * static_cast<std::size_t>(w) +
+        static_cast<std::size_t>(patch.left);
+    for (int x = span.begin; x < span.end; ++x) {
+      const float u = static_cast<float>(step * (patch.left + x) - 1);
+      const auto at = [u](detail::RowTerms t) { return t.a + u * (t.b + u * t.c); };
+      drift[static_cast<std::size_t>(x)] =
+          screen->slope[1][from + static_cast<std::size_t>(x)] *
+          (weights.red * at(red) + weights.green * at(green) + weights.blue * at(blue));
+    }
+    const auto skipped = static_cast<std::size_t>(span.begin);
+    for (int y = 2 * cell_row; y < std::min(2 * cell_row + 2, height); ++y) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
+          static_cast<std::size_t>(left) + 2 * skipped;
+      float* out = detail.data() + static_cast<std::size_t>(y) * stride;
+      float* below = plate.data() + static_cast<std::size_t>(y) * stride;
+      lanes().detail(frame.y.data() + pixel, light, screen->luma.data() + pixel,
+                     drift.data() + skipped, std::min(2 * span.end, width) - 2 * span.begin,
+                     out + 2 * skipped, below + 2 * skipped);
+      if (2 * span.end > width) {
+        out[width] = out[width - 1];
+        below[width] = below[width - 1];
+      }
     }
   }
   for (auto y = static_cast<std::size_t>(height); y < rows; ++y)
@@ -142,9 +139,7 @@ void Keyer::Impl::measure_guide() {
   gain.resize(n);
   product.resize(n);
   scratch.resize(n);
-  for (int y = 0; y < patch.height; ++y) {
-    const Span span = patch.spans[static_cast<std::size_t>(y)];
-    if (span.size() == 0) continue;
+  for (const auto& [y, span] : patch.rim) {
     const float* first = detail.data() +
                          2 * static_cast<std::ptrdiff_t>(y) * static_cast<std::ptrdiff_t>(stride) +
                          2 * span.begin;
@@ -200,33 +195,38 @@ std::uint8_t out_of_shade(std::uint8_t alpha) {
 
 void Keyer::Impl::raise_alpha() {
   alpha.assign(stride * static_cast<std::size_t>(height), 0);
+  // What the rim leaves out of the spans is opaque.
+  for (int y = 0; y < height; ++y)
+    if (const Span span = patch.spans[static_cast<std::size_t>(y / 2)]; span.size())
+      std::fill_n(alpha.data() + static_cast<std::size_t>(y) * stride + 2 * span.begin,
+                  std::min(2 * span.end, width) - 2 * span.begin, std::uint8_t{255});
   std::vector<float> rows(4 * stride);
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* kinds = inner.data() + static_cast<std::ptrdiff_t>(y / 2) * patch.width;
-    const Span span = patch.spans[static_cast<std::size_t>(y / 2)];
-    if (span.size() == 0) continue;
-    float* up = rows.data() + stride;
-    up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
-    up_row(gain, patch.width, patch.height, span, y, rows.data(), up + stride);
-    up_row(guide, patch.width, patch.height, span, y, rows.data(), up + 2 * stride);
-    up += 2 * span.begin;
-    const std::size_t at = static_cast<std::size_t>(y) * stride;
-    const std::size_t first = at + 2 * static_cast<std::size_t>(span.begin);
-    // Before a plain plate shadows and the codec's smear look like thin subject: they are taken
-    // off.
-    const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
-    lanes().raise_alpha({up, up + stride, up + 2 * stride, detail.data() + first, shade,
-                         config.clip_low, config.clip_high},
-                        2 * span.size(), alpha.data() + first);
-    // The neighbours' gain reaches half a cell into what is all opaque or all clear.
-    lanes().settle(kinds + span.begin, span.size(), alpha.data() + first);
-    if (shade > 0)
-      for (int x = span.begin; x < span.end; ++x)
-        if (shaded.row(y / 2)[x])
-          for (std::uint8_t* a = alpha.data() + at + 2 * x; a < alpha.data() + at + 2 * x + 2; ++a)
-            *a = out_of_shade(*a);
-    std::fill(alpha.begin() + static_cast<std::ptrdiff_t>(at) + width,
-              alpha.begin() + static_cast<std::ptrdiff_t>(at + stride), std::uint8_t{0});
+  // Before a plain plate shadows and the codec's smear look like thin subject: they are taken off.
+  const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
+  for (const auto& [cell_row, span] : patch.rim) {
+    const std::uint8_t* kinds = inner.data() + static_cast<std::ptrdiff_t>(cell_row) * patch.width;
+    for (int y = 2 * cell_row; y < std::min(2 * cell_row + 2, height); ++y) {
+      float* up = rows.data() + stride;
+      up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
+      up_row(gain, patch.width, patch.height, span, y, rows.data(), up + stride);
+      up_row(guide, patch.width, patch.height, span, y, rows.data(), up + 2 * stride);
+      up += 2 * span.begin;
+      const std::size_t at = static_cast<std::size_t>(y) * stride;
+      const std::size_t first = at + 2 * static_cast<std::size_t>(span.begin);
+      lanes().raise_alpha({up, up + stride, up + 2 * stride, detail.data() + first, shade,
+                           config.clip_low, config.clip_high},
+                          2 * span.size(), alpha.data() + first);
+      // The neighbours' gain reaches half a cell into what is all opaque or all clear.
+      lanes().settle(kinds + span.begin, span.size(), alpha.data() + first);
+      if (shade > 0)
+        for (int x = span.begin; x < span.end; ++x)
+          if (shaded.row(cell_row)[x])
+            for (std::uint8_t* a = alpha.data() + at + 2 * x; a < alpha.data() + at + 2 * x + 2;
+                 ++a)
+              *a = out_of_shade(*a);
+      std::fill(alpha.begin() + static_cast<std::ptrdiff_t>(at) + width,
+                alpha.begin() + static_cast<std::ptrdiff_t>(at + stride), std::uint8_t{0});
+    }
   }
 }
 
@@ -257,7 +257,7 @@ void Keyer::Impl::keep_tint(std::ptrdiff_t at, std::size_t count, detail::Planes
       mixed[p][i] = config.despill * mixed[p][i] + (1 - config.despill) * tinted[p][i];
 }
 
-// F per cell, encoded and times alpha: what is then mixed between cells. Outside the spans it is 0.
+// F per cell, encoded and times alpha: what is then mixed between cells. Off the rim it is 0.
 void Keyer::Impl::measure_own_color() {
   const std::size_t n = patch.cells();
   for (auto& plane : own) plane.assign(n, 0);
@@ -269,9 +269,7 @@ void Keyer::Impl::measure_own_color() {
   const auto mean = pointers(patch.mean);
   const auto out = pointers(own);
   const detail::KeyShape shape = detail::shape_of(screen->key);
-  for (int y = 0; y < patch.height; ++y) {
-    const Span span = patch.spans[static_cast<std::size_t>(y)];
-    if (span.size() == 0) continue;
+  for (const auto& [y, span] : patch.rim) {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * patch.width + span.begin;
     const auto count = static_cast<std::size_t>(span.size());
     const float* c[3] = {frame[0] + at, frame[1] + at, frame[2] + at};
@@ -331,17 +329,8 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
   const auto low_row = [&](int cy) {
     return 2 * cy + 1 < height ? top_row(cy) + stride : nothing.data();
   };
-  for (int cy = 0; cy < patch.height; ++cy) {
-    const std::uint8_t* a = top_row(cy);
-    const std::uint8_t* b = low_row(cy);
-    std::uint8_t* some = covered.row(cy);
-    std::uint8_t* half = solid.row(cy);
-    for (int cx = 0; cx < w; ++cx) {
-      const int sum = a[2 * cx] + a[2 * cx + 1] + b[2 * cx] + b[2 * cx + 1];
-      some[cx] = sum > 0 ? 1 : 0;
-      half[cx] = sum >= 510 ? 1 : 0;
-    }
-  }
+  for (int cy = 0; cy < patch.height; ++cy)
+    lanes().cover(top_row(cy), low_row(cy), w, covered.row(cy), solid.row(cy));
   const int count = connected_parts(dilate(covered, 1), labels);
   for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = covered.in[i] ? labels[i] : 0;
   // Calls `with` for every run of one label, of cells that `in` admits.
@@ -350,9 +339,14 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
       const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * w;
       const std::uint8_t* admitted = in.row(cy);
       for (int cx = 0; cx < w;) {
-        const int of = admitted[cx] ? label[cx] : 0;
+        if (!admitted[cx]) {
+          const void* next = std::memchr(admitted + cx, 1, static_cast<std::size_t>(w - cx));
+          if (!next) break;
+          cx = static_cast<int>(static_cast<const std::uint8_t*>(next) - admitted);
+        }
+        const int of = label[cx];
         int end = cx + 1;
-        while (end < w && (admitted[end] ? label[end] : 0) == of) ++end;
+        while (end < w && admitted[end] && label[end] == of) ++end;
         if (of) with(of, cy, cx, end);
         cx = end;
       }
@@ -382,7 +376,11 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
   std::vector<int> renamed(parts.size());
   for (std::size_t k = 0; k < kept.size(); ++k)
     renamed[static_cast<std::size_t>(kept[k].label)] = static_cast<int>(k) + 1;
-  for (int& label : labels) label = renamed[static_cast<std::size_t>(label)];
+  bool as_they_are = true;
+  for (std::size_t k = 0; k < renamed.size(); ++k)
+    as_they_are = as_they_are && renamed[k] == static_cast<int>(k);
+  if (!as_they_are)
+    for (int& label : labels) label = renamed[static_cast<std::size_t>(label)];
 
   // The anchor's mask: solid cells, opened until thin parts are gone, with the soft edge added
   // back; where nothing is left of a part, opened by less.
@@ -410,7 +408,7 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
     if (radius == 0) break;
   }
   // What is of no part is not there.
-  for (int cy = 0; cy < patch.height; ++cy) {
+  for (int cy = 0; cy < patch.height && !as_they_are; ++cy) {
     const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * w;
     for (int cx = 0; cx < w; ++cx)
       if (!label[cx] && covered.row(cy)[cx])
@@ -463,26 +461,26 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
   result.straight.height = crop.height;
   const std::size_t n =
       static_cast<std::size_t>(crop.width) * static_cast<std::size_t>(crop.height);
-  result.straight.rgba.assign(4 * n, 0);
-  result.labels.assign(n, 0);
+  result.straight.rgba.reserve(4 * n);
+  result.labels.reserve(n);
 
-  // Deep inside the picture is taken as it is: green clothes stay green.
-  const Mask deep = erode_disc(patch.seeds, kUntouched);
   const RgbOfYcc matrix = rgb_of_ycc(frame.coding);
   std::vector<float> rows(6 * stride);
-  std::vector<std::uint8_t> filmed(4 * stride);
   std::vector<std::uint8_t> painted(4 * stride);
+  std::vector<std::uint8_t> names(stride);
   const std::vector<std::uint8_t>& coverage = measured.empty() ? alpha : measured;
+  const int crop_left = crop.x - left;
+  const int crop_right = crop_left + crop.width;
   for (int y = crop.y - top; y < crop.y - top + crop.height; ++y) {
     const int cy = y / 2;
-    const std::uint8_t* inside = deep.row(cy);
+    // Deep inside the picture is taken as it is: green clothes stay green.
+    const std::uint8_t* inside = patch.deep.row(cy);
     const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * patch.width;
     // Cells from the first to the last that is covered; runs of deep ones are copied.
     int first = 0;
     int last = patch.width;
     while (first < last && !label[first]) ++first;
     while (last > first && !label[last - 1]) --last;
-    if (first == last) continue;
     const std::size_t at = static_cast<std::size_t>(y) * stride;
     const std::size_t film =
         static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
@@ -490,33 +488,24 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
     const std::size_t color =
         static_cast<std::size_t>(patch.top + cy) * static_cast<std::size_t>(frame.cell_width()) +
         static_cast<std::size_t>(patch.left);
-    bool raised = false;
-    std::uint8_t* out = result.straight.rgba.data();
-    std::uint8_t* names = result.labels.data();
-    const auto row_start =
-        static_cast<std::ptrdiff_t>(y - (crop.y - top)) * crop.width - (crop.x - left);
     for (int begin = first; begin < last;) {
       const bool as_filmed = inside[begin] != 0;
       int end = begin + 1;
       while (end < last && (inside[end] != 0) == as_filmed) ++end;
       const int from = 2 * begin;
       const int pixels = std::min(2 * end, width) - from;
-      std::uint8_t* source = nullptr;
+      std::uint8_t* out = painted.data() + 4 * from;
       if (as_filmed) {
         lanes().paint_filmed(matrix, frame.y.data() + film + from, frame.cb.data() + color + begin,
-                             frame.cr.data() + color + begin, pixels, filmed.data());
-        source = filmed.data();
+                             frame.cr.data() + color + begin, pixels, out);
       } else {
-        if (!raised) {
-          float* up = rows.data() + stride;
-          const Span span{std::max(first - 1, 0), std::min(last + 1, patch.width)};
-          up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
-          for (int p = 0; p < 3; ++p)
-            up_row(own[p], patch.width, patch.height, span, y, rows.data(),
-                   up + static_cast<std::size_t>(p + 1) * stride);
-          raised = true;
-        }
-        const float* up = rows.data() + stride + from;
+        float* up = rows.data() + stride;
+        const Span span{std::max(begin - 1, 0), std::min(end + 1, patch.width)};
+        up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
+        for (int p = 0; p < 3; ++p)
+          up_row(own[p], patch.width, patch.height, span, y, rows.data(),
+                 up + static_cast<std::size_t>(p + 1) * stride);
+        up += from;
         lanes().paint_own({coverage.data() + at + from,
                            up,
                            {up + stride, up + 2 * stride, up + 3 * stride},
@@ -525,19 +514,21 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
                            weights.red,
                            weights.green,
                            weights.blue},
-                          pixels, painted.data());
-        source = painted.data();
+                          pixels, out);
       }
-      const int low = std::max(from, crop.x - left);
-      const int high = std::min(from + pixels, crop.x - left + crop.width);
-      if (high > low)
-        std::copy(source + 4 * (low - from), source + 4 * (high - from),
-                  out + 4 * (row_start + low));
-      const std::uint8_t* shown = alpha.data() + at;
-      for (int x = low; x < high; ++x)
-        names[row_start + x] = shown[x] ? static_cast<std::uint8_t>(label[x / 2]) : std::uint8_t{0};
       begin = end;
     }
+    lanes().name_pixels(alpha.data() + at + 2 * first, label + first, last - first,
+                        names.data() + 2 * first);
+    const int low = std::clamp(2 * first, crop_left, crop_right);
+    const int high = std::clamp(std::min(2 * last, width), low, crop_right);
+    const auto append = [&](std::vector<std::uint8_t>& to, const std::uint8_t* from, int bytes) {
+      to.insert(to.end(), static_cast<std::size_t>(bytes * (low - crop_left)), 0);
+      to.insert(to.end(), from + bytes * low, from + bytes * high);
+      to.insert(to.end(), static_cast<std::size_t>(bytes * (crop_right - high)), 0);
+    };
+    append(result.straight.rgba, painted.data(), 4);
+    append(result.labels, names.data(), 1);
   }
 }
 

@@ -115,17 +115,22 @@ Surface fit_drift(const ScreenModel& screen, const Frame& frame, float reach) {
   Surface drift;
   const int step = std::max(4, frame.cell_width() / 32);
   const auto samples = sample_drift(screen, frame, step);
+  std::vector<std::uint8_t> believed(samples.size()), before;
   for (const float limit : {4 * reach, 2 * reach, reach, reach}) {
-    SurfaceFit fit;
-    for (const DriftSample& s : samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const DriftSample& s = samples[i];
       float left[3];
-      double residual[3];
-      for (int p = 0; p < 3; ++p) {
-        residual[p] = static_cast<double>(s.residual[p]);
-        left[p] = static_cast<float>(residual[p] - drift.at(p, s.u, s.v));
-      }
-      if (distance_squared(left[0], left[1], left[2]) < limit * limit) fit.add(s.u, s.v, residual);
+      for (int p = 0; p < 3; ++p)
+        left[p] = static_cast<float>(static_cast<double>(s.residual[p]) - drift.at(p, s.u, s.v));
+      believed[i] = distance_squared(left[0], left[1], left[2]) < limit * limit ? 1 : 0;
     }
+    if (believed == before) continue;  // the same surface again
+    before = believed;
+    SurfaceFit fit;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (const auto& [r, g, b] = samples[i].residual; believed[i])
+        fit.add(samples[i].u, samples[i].v,
+                {static_cast<double>(r), static_cast<double>(g), static_cast<double>(b)});
     // Too little screen in sight: the film's plate stands.
     if (fit.count() * 20 < static_cast<int>(samples.size())) return Surface{};
     fit.solve(drift);

@@ -110,26 +110,26 @@ void gather_evidence(const ScreenModel& screen, Patch& patch) {
 // Holes are filled unless a cell of theirs looks like screen.
 void fill_holes(const Patch& patch, Mask& seeds) {
   Mask rest(seeds.width, seeds.height);
-  Mask screen_like(seeds.width, seeds.height);
-  for (std::size_t i = 0; i < rest.in.size(); ++i) {
-    rest.in[i] = seeds.in[i] ? 0 : 1;
-    const bool like = (patch.key[i] < 0.35f) & (patch.bound[i] < 0.5f);
-    screen_like.in[i] = (!patch.region.in[i]) | like;
-  }
+  for (std::size_t i = 0; i < rest.in.size(); ++i) rest.in[i] = seeds.in[i] ^ 1;
   std::vector<int> labels;
   const int parts = connected_parts(rest, labels);
   std::vector<std::uint8_t> open(static_cast<std::size_t>(parts) + 1);
   open[0] = 1;
-  for (int y = 0; y < rest.height; ++y) {
-    const int* label = labels.data() + static_cast<std::ptrdiff_t>(y) * rest.width;
-    const std::uint8_t* like = screen_like.row(y);
+  int closed = parts;
+  for (int y = 0; y < rest.height && closed > 0; ++y) {
+    const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(rest.width);
     const bool edge = y == 0 || y == rest.height - 1;
-    open[static_cast<std::size_t>(label[0])] = 1;
-    open[static_cast<std::size_t>(label[rest.width - 1])] = 1;
-    for (int x = 0; x < rest.width; ++x)
-      if (label[x] && (edge || like[x])) open[static_cast<std::size_t>(label[x])] = 1;
+    for (int x = 0; x < rest.width; ++x) {
+      const std::size_t i = row + static_cast<std::size_t>(x);
+      std::uint8_t& state = open[static_cast<std::size_t>(labels[i])];
+      if (state) continue;
+      const bool like = !patch.region.in[i] || (patch.key[i] < 0.35f && patch.bound[i] < 0.5f);
+      if (!edge && x > 0 && x < rest.width - 1 && !like) continue;
+      state = 1;
+      --closed;
+    }
   }
-  if (std::find(open.begin(), open.end(), 0) == open.end()) return;
+  if (closed == 0) return;
   for (std::size_t i = 0; i < rest.in.size(); ++i)
     if (!open[static_cast<std::size_t>(labels[i])]) seeds.in[i] = 1;
 }
@@ -167,97 +167,144 @@ void find_seeds(const ScreenModel& screen, Patch& patch) {
   fill_holes(patch, patch.seeds);
 }
 
+// A row of ten moments of `width` squares; each is followed by zeros, kEdge at least.
+struct MomentRows {
+  static constexpr int kEdge = 4;
+  int width, height;
+  std::size_t stride;  // from a moment to the next
+  std::size_t all() const { return kMoments * stride; }
+  std::size_t at(int y) const { return kEdge + static_cast<std::size_t>(y) * all(); }
+  std::size_t size() const { return at(height) + kEdge; }
+};
+
+MomentRows near_rows(const Patch& patch) {
+  const int w = (patch.width + 1) / 2;
+  const auto stride = (static_cast<std::size_t>(w + MomentRows::kEdge) + 31) / 32 * 32;
+  return {w, (patch.height + 1) / 2, stride};
+}
+// Of 4 x 4 cells; a moment's place in a row is half of that in the row of 2 x 2.
+MomentRows wide_rows(const MomentRows& near) {
+  return {(near.width + 1) / 2, (near.height + 1) / 2, near.stride / 2};
+}
+
+void clear_gaps(const MomentRows& rows, float* row) {
+  for (std::size_t k = 0; k < kMoments; ++k)
+    std::fill(row + k * rows.stride + rows.width, row + (k + 1) * rows.stride, 0.0f);
+}
+
+// Sums over 5 x 5, three times.
+void blur_wide(const MomentRows& rows, std::vector<float>& plane, std::vector<float>& scratch) {
+  constexpr float kFifth = 1.0f / 5;
+  scratch.assign(rows.size() + 4 * rows.all(), 0.0f);  // two rows of zeros on both sides
+  for (int pass = 0; pass < 3; ++pass) {
+    for (int y = 0; y < rows.height; ++y) {
+      float* out = scratch.data() + rows.at(y + 2);
+      lanes().sum5(plane.data() + rows.at(y), 1, rows.all(), kFifth, out);
+      clear_gaps(rows, out);
+    }
+    for (int y = 0; y < rows.height; ++y)
+      lanes().sum5(scratch.data() + rows.at(y + 2), static_cast<std::ptrdiff_t>(rows.all()),
+                   rows.all(), kFifth, plane.data() + rows.at(y));
+  }
+}
+
 // Weighted sums of 1, the three channels and their six products under a near window (sigma about 2
 // cells, kept in squares of 2 x 2) and a wide one (sigma about 10, in squares of 4 x 4), with a
 // trace of the whole patch.
 void gather_moments(Patch& patch, const std::vector<float>& weight,
                     const std::vector<float> (&color)[3]) {
-  const int w = (patch.width + 1) / 2;
-  const int h = (patch.height + 1) / 2;
-  const int ww = (w + 1) / 2;
-  const int wh = (h + 1) / 2;
-  const auto n = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
-  patch.scratch.resize(n + 2 * patch.cells());
-  std::vector<float>& near_all = patch.soft;
-  near_all.resize(n);
-  for (int k = 0; k < kMoments; ++k) patch.near[k].resize(n);
-  for (int y = 0; y < h; ++y) {
+  const MomentRows near = near_rows(patch);
+  const MomentRows wide = wide_rows(near);
+  patch.near.assign(near.size() + near.all(), 0.0f);  // a row of zeros below
+  for (int y = 0; y < near.height; ++y) {
     const bool both = 2 * y + 1 < patch.height;
     const Span upper = patch.spans[static_cast<std::size_t>(2 * y)];
     const Span lower = both ? patch.spans[static_cast<std::size_t>(2 * y + 1)] : Span{};
     Span span = upper.size() ? upper : lower;
     if (upper.size() && lower.size())
       span = {std::min(upper.begin, lower.begin), std::max(upper.end, lower.end)};
+    if (span.size() == 0) continue;
     span.begin &= ~1;
     const auto skipped = static_cast<std::size_t>(span.begin);
     const auto top =
         static_cast<std::size_t>(2 * y) * static_cast<std::size_t>(patch.width) + skipped;
     const auto low = both ? top + static_cast<std::size_t>(patch.width) : top;
     float* out[kMoments];
-    for (int k = 0; k < kMoments; ++k) {
-      float* row = patch.near[k].data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(w);
-      std::fill(row, row + w, 0.0f);
-      out[k] = row + skipped / 2;
-    }
+    for (std::size_t k = 0; k < kMoments; ++k)
+      out[k] = patch.near.data() + near.at(y) + k * near.stride + skipped / 2;
     const ConstPointers first(color, top);
     const ConstPointers second(color, low);
     lanes().moments(weight.data() + top, both ? weight.data() + low : nullptr, first.at, second.at,
                     span.size(), out);
   }
-  const std::vector<float> nothing(static_cast<std::size_t>(w));
-  const std::size_t squares = static_cast<std::size_t>(ww) * static_cast<std::size_t>(wh);
-  for (int k = 0; k < kMoments; ++k) {
-    const auto& near = patch.near[k];
-    auto& wide = patch.wide[k];
-    wide.resize(squares);
-    for (int y = 0; y < wh; ++y) {
-      const float* first = near.data() + static_cast<std::ptrdiff_t>(2 * y) * w;
-      const float* second = 2 * y + 1 < h ? first + w : nothing.data();
-      float* out = wide.data() + static_cast<std::ptrdiff_t>(y) * ww;
-      lanes().halve(first, second, w / 2, out);
-      if (w % 2) out[ww - 1] = 0.25f * (first[w - 1] + second[w - 1]);
-    }
+  patch.wide.assign(wide.size(), 0.0f);
+  for (int y = 0; y < wide.height; ++y) {
+    const float* first = patch.near.data() + near.at(2 * y);
+    lanes().halve(first, first + near.all(), static_cast<int>(wide.all()),
+                  patch.wide.data() + wide.at(y));
   }
   // Of the whole patch; ten sums at a time, each in its own order.
   double all[kMoments] = {};
-  for (std::size_t i = 0; i < squares; ++i)
-    for (int k = 0; k < kMoments; ++k) all[k] += static_cast<double>(patch.wide[k][i]);
-  for (int k = 0; k < kMoments; ++k) {
-    auto& near = patch.near[k];
-    auto& wide = patch.wide[k];
-    blur(wide, ww, wh, 2, 3, patch.scratch);
-    lanes().blur3(near.data(), w, h, patch.scratch.data(), near_all.data());
-    // near + far wide + whole.
-    std::vector<float>& mixed = patch.rows[k];
-    mixed.resize(static_cast<std::size_t>(2 * ww) + 2 * kRoom + static_cast<std::size_t>(4 * w));
-    const float whole = kGlobalWeight * static_cast<float>(all[k]);
-    for (int y = 0; y < h; ++y) {
-      const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), wh - 1);
-      const float* a = wide.data() + static_cast<std::ptrdiff_t>(y / 2) * ww;
-      const float* b = wide.data() + static_cast<std::ptrdiff_t>(second) * ww;
-      float* row = mixed.data();
-      float* doubled = row + ww;
-      lanes().mix(a, 0.75f * kFarWeight, b, 0.25f * kFarWeight, static_cast<std::size_t>(ww), row);
-      lanes().double_row(row, ww, doubled);
-      const float* in = near_all.data() + static_cast<std::ptrdiff_t>(y) * w;
-      float* out = near.data() + static_cast<std::ptrdiff_t>(y) * w;
-      for (int x = 0; x < w; ++x) out[x] = in[x] + doubled[x] + whole;
+  for (int y = 0; y < wide.height; ++y)
+    for (std::size_t x = 0; x < static_cast<std::size_t>(wide.width); ++x)
+      for (std::size_t k = 0; k < kMoments; ++k)
+        all[k] += static_cast<double>(patch.wide[wide.at(y) + k * wide.stride + x]);
+  blur_wide(wide, patch.wide, patch.scratch);
+  // near + far wide + whole; the rows of the near sums are blurred when all three are there.
+  std::vector<float>& sums = patch.scratch;
+  sums.assign(near.size() + 2 * near.all(), 0.0f);  // a row of zeros on both sides
+  for (int y = 0; y < near.height; ++y)
+    lanes().sum3(patch.near.data() + near.at(y), near.all(), sums.data() + near.at(y + 1));
+  for (auto& row : patch.rows) row.resize(2 * near.all());
+  float* const mixed = patch.rows[0].data();
+  float* const doubled = patch.rows[1].data();
+  for (int y = 0; y < near.height; ++y) {
+    const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), wide.height - 1);
+    lanes().mix(patch.wide.data() + wide.at(y / 2), 0.75f * kFarWeight,
+                patch.wide.data() + wide.at(second), 0.25f * kFarWeight, wide.all(), mixed);
+    const float* middle = sums.data() + near.at(y + 1);
+    for (std::size_t k = 0; k < kMoments; ++k) {
+      lanes().double_row(mixed + k * wide.stride, wide.width, doubled);
+      const std::size_t from = k * near.stride;
+      lanes().add_far(middle + from, static_cast<std::ptrdiff_t>(near.all()), doubled,
+                      kGlobalWeight * static_cast<float>(all[k]), near.width,
+                      patch.near.data() + near.at(y) + from);
     }
   }
 }
 
-// Alpha and mean of what is not sure; `final`: the means near the seeds too, for the despill.
-void solve_alpha(Patch& patch, float spill, bool final) {
-  const int w = (patch.width + 1) / 2;
-  const int h = (patch.height + 1) / 2;
+// Calls `with(begin, end)` for the runs of what is not 0; those less than a few blocks of lanes
+// apart are one.
+template <class With>
+void each_run(const std::uint8_t* in, Span span, With with) {
+  constexpr int kApart = 32;
+  for (int x = span.begin; x < span.end;) {
+    if (!in[x]) {
+      ++x;
+      continue;
+    }
+    int end = x + 1;
+    for (int next = end; next < span.end && next - end < kApart; ++next)
+      if (in[next]) end = next + 1;
+    with(x, end);
+    x = end;
+  }
+}
+
+// Alpha and mean of what is not sure; `means`: the cells whose mean the despill wants too.
+void solve_alpha(Patch& patch, float spill, const Mask* means) {
+  const MomentRows near = near_rows(patch);
   const auto width = static_cast<std::size_t>(patch.width);
   patch.mode.assign(width + 2 * kRoom, 0);
-  for (auto& row : patch.rows) row.resize(static_cast<std::size_t>(3 * w) + 4 * kRoom);
+  // Room for a block of lanes behind the last cell.
+  const std::size_t stride = 2 * near.stride + kRoom;
+  patch.rows[0].resize(near.all());
+  patch.rows[1].resize(kMoments * stride);
   ProjectionRow row{};
   row.mode = patch.mode.data();
-  for (int k = 0; k < kMoments; ++k) row.moment[k] = patch.rows[k].data() + w;
+  for (std::size_t k = 0; k < kMoments; ++k) row.moment[k] = patch.rows[1].data() + k * stride;
   std::fill(patch.alpha.begin(), patch.alpha.end(), 0.0f);
-  if (!final) std::fill(patch.residual.begin(), patch.residual.end(), 0.0f);
+  if (!means) std::fill(patch.residual.begin(), patch.residual.end(), 0.0f);
   for (int y = 0; y < patch.height; ++y) {
     const Span span = patch.spans[static_cast<std::size_t>(y)];
     if (span.size() == 0) continue;
@@ -265,21 +312,14 @@ void solve_alpha(Patch& patch, float spill, bool final) {
     float* alpha = patch.alpha.data() + at;
     std::fill(patch.mode.begin(), patch.mode.end(), std::uint8_t{0});
     const auto skipped = static_cast<std::size_t>(span.begin);
-    if (!lanes().modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped, final,
+    if (!lanes().modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped,
+                       means ? means->row(y) + skipped : nullptr,
                        static_cast<std::size_t>(span.size()), patch.mode.data() + skipped,
                        alpha + skipped))
       continue;
-    const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), h - 1);
-    // The span's squares and those beside them.
-    const int from = std::max(span.begin / 2 - 1, 0);
-    const int count = std::min((span.end + 1) / 2 + 1, w) - from;
-    for (int k = 0; k < kMoments; ++k) {
-      const float* a = patch.near[k].data() + static_cast<std::ptrdiff_t>(y / 2) * w + from;
-      const float* b = patch.near[k].data() + static_cast<std::ptrdiff_t>(second) * w + from;
-      float* mixed = patch.rows[k].data();
-      lanes().mix(a, 0.75f, b, 0.25f, static_cast<std::size_t>(count), mixed);
-      lanes().double_row(mixed, count, mixed + w + 2 * from);
-    }
+    const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), near.height - 1);
+    lanes().mix(patch.near.data() + near.at(y / 2), 0.75f, patch.near.data() + near.at(second),
+                0.25f, near.all(), patch.rows[0].data());
     for (int p = 0; p < 3; ++p) {
       row.frame[p] = patch.frame[p].data() + at;
       row.plate[p] = patch.plate[p].data() + at;
@@ -288,8 +328,16 @@ void solve_alpha(Patch& patch, float spill, bool final) {
     }
     row.bound = patch.bound.data() + at;
     row.alpha = alpha;
-    row.residual = final ? nullptr : patch.residual.data() + at;
-    lanes().project(row, spill, span.begin, span.end, patch.width);
+    row.residual = means ? nullptr : patch.residual.data() + at;
+    each_run(patch.mode.data(), span, [&](int begin, int end) {
+      // The run's squares and those beside them.
+      const int from = std::max(begin / 2 - 1, 0);
+      const int count = std::min((end + 1) / 2 + 1, near.width) - from;
+      for (std::size_t k = 0; k < kMoments; ++k)
+        lanes().double_row(patch.rows[0].data() + k * near.stride + from, count,
+                           patch.rows[1].data() + k * stride + 2 * from);
+      lanes().project(row, spill, begin, end, patch.width);
+    });
   }
 }
 
@@ -324,17 +372,23 @@ void grow_seeds(Patch& patch) {
   Mask opaque(patch.width, patch.height);
   const std::size_t n = patch.cells();
   lanes().above(patch.alpha.data(), kNearlyOpaque, n, opaque.in.data());
-  for (int step = 0; step < kGrowth; ++step) {
-    Mask near = dilate(patch.seeds, 1);
-    lanes().spread_into(opaque.in.data(), n, false, near.in.data());
-    lanes().spread_into(patch.seeds.in.data(), n, true, near.in.data());
-    const bool grown = near.in != patch.seeds.in;
-    patch.seeds = std::move(near);
-    if (!grown) break;
-  }
+  patch.seeds = grow_into(opaque, patch.seeds, kGrowth);
   each_span(patch, [&](std::size_t at, std::size_t count) {
     lanes().set_sure(patch.seeds.in.data() + at, count, patch.alpha.data() + at);
   });
+}
+
+// What is looked at from here on. Returns its cells: a pixel is mixed from cells one apart.
+Mask find_rim(Patch& patch) {
+  patch.deep = erode_disc(patch.seeds, kUntouched);
+  Mask edge = erode(patch.deep, 1);
+  for (std::uint8_t& in : edge.in) in ^= 1;
+  patch.rim.clear();
+  for (int y = 0; y < patch.height; ++y)
+    each_run(edge.row(y), patch.spans[static_cast<std::size_t>(y)], [&](int begin, int end) {
+      patch.rim.push_back({y, {begin, end}});
+    });
+  return edge;
 }
 
 }  // namespace
@@ -392,7 +446,7 @@ void unmix(const ScreenModel& screen, Patch& patch) {
       lanes().set_sure(patch.seeds.in.data() + at, count, patch.weight.data() + at);
     });
     gather_moments(patch, patch.weight, patch.frame);
-    solve_alpha(patch, kSpill, false);
+    solve_alpha(patch, kSpill, nullptr);
     if (round > 0 || !add_unexplained(patch)) break;
   }
   if (screen.key >= 0) grow_seeds(patch);
@@ -408,7 +462,8 @@ void unmix(const ScreenModel& screen, Patch& patch) {
                       frame.at, plate.at, count, patch.weight.data() + at, color.at);
   });
   gather_moments(patch, patch.weight, patch.color);
-  solve_alpha(patch, kRimSpill, true);
+  const Mask edge = find_rim(patch);
+  solve_alpha(patch, kRimSpill, &edge);
 }
 
 }  // namespace vsprite::detail

@@ -17,6 +17,14 @@
 
 namespace vsprite::detail {
 
+inline constexpr int kUntouched = 6;  ///< cells: deeper in the picture is taken as it is
+
+/// A run of cells of a row.
+struct RowSpan {
+  int y = 0;
+  Span span;
+};
+
 /// The part of a frame that holds the subject. All maps are (height, width) cells, with room for a
 /// block of lanes behind the last.
 struct Patch {
@@ -29,11 +37,15 @@ struct Patch {
   std::vector<float> noise[3];                   ///< sigma_n, linear
   Mask seeds;                                    ///< surely subject
   std::vector<float> alpha;                      ///< the result
-  std::vector<float> mean[3];                    ///< mu: the foreground nearby
+  Mask deep;                                     ///< kUntouched inside the seeds: all opaque
+  std::vector<RowSpan> rim;                      ///< of the spans, all but what deep surrounds
+  std::vector<float> mean[3];                    ///< mu: the foreground nearby, on the rim
 
-  // Working room: evidence, weights, moments at half and at an eighth of the film's resolution.
+  // Working room: evidence, weights, moments at half and at a quarter of the grid's resolution. A
+  // row of moments holds all ten, one behind the other with zeros between, so that sums run over
+  // them at once.
   std::vector<float> key, bound, residual, weight, color[3], scratch, soft;
-  std::vector<float> near[kMoments], wide[kMoments], rows[kMoments];
+  std::vector<float> near, wide, rows[2];
   std::vector<std::uint8_t> mode;
 
   std::size_t cells() const {
