@@ -4,7 +4,7 @@
 # How packs answer, beside the best of the paper's mode: the table and the floors of README.
 #     assets/scripts/answers.sh BIN [PACK...] [-- options of `vsprite steer`]
 # BIN holds `vsprite` and `madefilm`. Two made films are always among them; ANSWERS_WORK=DIR keeps
-# them for the next time.
+# them for the next time, and each pack's curve as DIR/NAME.svg.
 set -eu
 bin=$1
 shift
@@ -19,7 +19,8 @@ for kind in walker sparse; do
   packs+=("$work/$kind.vsp")
 done
 for pack in "${packs[@]}"; do
-  "$bin/vsprite" steer "$pack" --bench --json --progress none "${options[@]}" >"$work/$(basename "$pack" .vsp).json"
+  name=$(basename "$pack" .vsp)
+  "$bin/vsprite" steer "$pack" --bench --json --quiet --progress none -o "$work/$name.svg" "${options[@]}" >"$work/$name.json"
 done
 cat >"$work/table.py" <<'END'
 import json, sys
