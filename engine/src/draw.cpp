@@ -45,6 +45,36 @@ std::array<float, 4> clear_corners(ImageView image) {
   return out;
 }
 
+/// How many pixels of a picture that is drawn at `scale` go into a texel, along either side.
+int reduction(float scale) {
+  constexpr int kMost = 16;
+  int side = 1;
+  while (side < kMost && scale * static_cast<float>(2 * side) <= 1) side *= 2;
+  return side;
+}
+
+TextureKey reduced(TextureKey key, int side) {
+  constexpr std::uint32_t kFirst = 1u << 16;  // behind all shadows
+  if (side > 1) key.variant = kFirst + static_cast<std::uint32_t>(side);
+  return key;
+}
+
+/// The mean light of a square of pixels; beyond the picture they are clear.
+void convert_mean(const detail::LightTable& light, ImageView image, int left, int top, int side,
+                  std::uint16_t* out) {
+  std::array<float, 4> sum{};
+  std::array<std::uint16_t, 4> one{};
+  for (int y = top; y < std::min(top + side, image.height); ++y) {
+    for (int x = left; x < std::min(left + side, image.width); ++x) {
+      if (image.pixel(x, y)[3] == 0) continue;
+      light.convert(image.pixel(x, y), one.data());
+      for (std::size_t c = 0; c < 4; ++c) sum[c] += detail::float_from_half(one[c]);
+    }
+  }
+  const float share = 1 / static_cast<float>(side * side);
+  for (std::size_t c = 0; c < 4; ++c) out[c] = detail::half_from_float(sum[c] * share);
+}
+
 }  // namespace
 
 Renderer::Impl::~Impl() {
@@ -169,8 +199,10 @@ void Renderer::Impl::use_surface(Surface* surface) {
   if (surface != nullptr) gl::draw_to(device, surface->main);
 }
 
-std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, ImageView image) {
-  const int width = image.width + 2, height = image.height + 2;  // a border of zeros
+std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, ImageView image,
+                                                       int side) {
+  const int columns = (image.width + side - 1) / side, rows = (image.height + side - 1) / side;
+  const int width = columns + 2, height = rows + 2;  // a border of zeros
   const auto placed = atlas.insert(key, width, height);
   if (!placed) return std::nullopt;
   const std::size_t index = static_cast<std::size_t>(placed->slot.page);
@@ -188,26 +220,36 @@ std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, Im
                                     atlas.page_height(placed->slot.page));
   }
   staging.assign(std::size_t(width) * std::size_t(height) * 4, 0);
-  for (int y = 0; y < image.height; ++y) {
+  for (int y = 0; y < rows; ++y) {
     std::uint16_t* out = &staging[(std::size_t(y + 1) * std::size_t(width) + 1) * 4];
-    for (int x = 0; x < image.width; ++x, out += 4) light.convert(image.pixel(x, y), out);
+    for (int x = 0; x < columns; ++x, out += 4) {
+      if (side == 1) {
+        light.convert(image.pixel(x, y), out);
+      } else {
+        convert_mean(light, image, x * side, y * side, side, out);
+      }
+    }
   }
   gl::upload(device, pages[index], placed->slot.rect, staging.data());
   ++stats.uploads;
   stats.texture_bytes = atlas.bytes();
   detail::AtlasSlot slot = placed->slot;
   slot.cuts = clear_corners(image);
+  if (side > 1) {
+    for (float& cut : slot.cuts)
+      cut = std::max(0.0f, std::floor(cut / static_cast<float>(side)) - 1);
+  }
   atlas.set_cuts(key, slot.cuts);
   return slot;
 }
 
 std::optional<detail::AtlasSlot> Renderer::Impl::find_or_store(const TextureKey& key,
-                                                               ImageView image) {
+                                                               ImageView image, int side) {
   if (key.sprite != 0) {
     if (const auto slot = atlas.find(key)) return slot;
   }
   if (image.rgba == nullptr || image.width <= 0 || image.height <= 0) return std::nullopt;
-  return store(key.sprite != 0 ? key : TextureKey{0, uncached++}, image);
+  return store(key.sprite != 0 ? key : TextureKey{0, uncached++}, image, side);
 }
 
 void Renderer::Impl::push_picture(const detail::Picture& p) {
@@ -319,22 +361,33 @@ bool Renderer::is_cached(const TextureKey& key) const noexcept {
 
 void Renderer::forget(std::uint64_t sprite) { impl_->atlas.forget(sprite); }
 
+TextureKey reduced_key(const TextureKey& picture, float scale) noexcept {
+  return reduced(picture, reduction(std::fabs(scale)));
+}
+
 void Renderer::draw_sprite(const SpriteDraw& s) {
   Impl& m = *impl_;
   if (m.target == nullptr) return;
   detail::Picture p;
   const bool fades = s.fade.share > 0;
+  int side = reduction(std::fabs(s.scale * m.camera.scale));
+  // Who knows that the whole picture is there need not give it again.
+  if (s.image.rgba == nullptr && !m.atlas.has(reduced(s.key, side))) side = 1;
+  const TextureKey key = reduced(s.key, side), old_key = reduced(s.fade.key, side);
   // The older picture first: it is the one that is likely to be there.
-  if (fades) p.old = m.find_or_store(s.fade.key, s.fade.image);
-  const auto slot = m.find_or_store(s.key, s.image);
+  if (fades) p.old = m.find_or_store(old_key, s.fade.image, side);
+  const auto slot = m.find_or_store(key, s.image, side);
   if (!slot) return;
   // Storing one may have emptied the page of the other.
-  if (fades && s.fade.key.sprite != 0) p.old = m.atlas.find(s.fade.key);
+  if (fades && s.fade.key.sprite != 0) p.old = m.atlas.find(old_key);
   p.slot = *slot;
   p.share = std::min(s.fade.share, 1.0f);
-  p.shift = {s.anchor.x - s.fade.anchor.x, s.anchor.y - s.fade.anchor.y};
   m.set_axes(s, p);
   m.put_at(s.position, s.anchor, p);
+  const auto size = static_cast<float>(side);
+  p.x_axis = {p.x_axis.x * size, p.x_axis.y * size};
+  p.y_axis = {p.y_axis.x * size, p.y_axis.y * size};
+  p.shift = {(s.anchor.x - s.fade.anchor.x) / size, (s.anchor.y - s.fade.anchor.y) / size};
   p.tint = s.tint;
   p.fog = s.fog;
   p.fog_amount = s.fog_amount;

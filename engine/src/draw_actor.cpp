@@ -38,8 +38,10 @@ SpriteDraw sprite_of(const ActorDraw& a, float fraction, const IsThere& is_there
 }
 
 void draw_one(Renderer& renderer, const ActorDraw& a, float fraction) {
-  renderer.draw_sprite(
-      sprite_of(a, fraction, [&](const TextureKey& key) { return renderer.is_cached(key); }));
+  const float scale = a.look.scale * renderer.camera().scale;
+  renderer.draw_sprite(sprite_of(a, fraction, [&](const TextureKey& key) {
+    return renderer.is_cached(reduced_key(key, scale));
+  }));
   a.frames->look_ahead(*a.actor);
 }
 

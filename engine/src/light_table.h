@@ -29,6 +29,12 @@ inline std::uint16_t half_from_float(float x) noexcept {
   return static_cast<std::uint16_t>((bits >> 13) - ((127u - 15u) << 10));
 }
 
+/// Back again. Pre: x in [0, 1].
+inline float float_from_half(std::uint16_t x) noexcept {
+  if (x < 0x400) return static_cast<float>(x) * (1 / 16777216.0f);
+  return std::bit_cast<float>((std::uint32_t{x} << 13) + ((127u - 15u) << 23));
+}
+
 /// (alpha, encoded premultiplied value) -> linear premultiplied value.
 class LightTable {
  public:

@@ -139,7 +139,7 @@ struct Renderer::Impl {
               int wanted_taps = 1);
   void use_surface(detail::Surface* surface);
   void drop_frame();
-  std::optional<detail::AtlasSlot> store(const TextureKey& key, ImageView image);
+  std::optional<detail::AtlasSlot> store(const TextureKey& key, ImageView image, int side = 1);
   void push(std::initializer_list<float> values) {
     batch.insert(batch.end(), values.begin(), values.end());
   }
@@ -148,8 +148,10 @@ struct Renderer::Impl {
   void put_at(Vec2 position, Vec2 texel, detail::Picture& picture) const;
   void push_shadow(const SpriteDraw& sprite, const Fade& of, const Shadow& shadow);
   void push_picture(const detail::Picture& picture);
-  /// The picture's place on a page; it is sent there if need be. Nothing if there is no picture.
-  std::optional<detail::AtlasSlot> find_or_store(const TextureKey& key, ImageView image);
+  /// The picture's place on a page; it is sent there if need be, of squares of `side` pixels one
+  /// texel each. Nothing if there is no picture.
+  std::optional<detail::AtlasSlot> find_or_store(const TextureKey& key, ImageView image,
+                                                 int side = 1);
   /// Null if the driver refuses the variant.
   detail::Program* sprite_program(int taps, bool fading);
   Vec2 to_frame(Vec2 p) const noexcept {

@@ -70,6 +70,41 @@ TEST_F(Draw, KeepsTheEdgeColourOfAReducedPicture) {
   }
 }
 
+// At a half, a quarter, an eighth every pixel is the mean of so many of the picture.
+TEST_F(Draw, AReducedPictureIsTheMeanOfWhatLiesUnderEachPixel) {
+  const Image picture = noise_picture(63, 50, 3);
+  for (float scale : {0.5f, 0.25f, 0.125f})
+    EXPECT_LE(difference_to_compositor(picture, {10, 8}, scale), 2) << scale;
+}
+
+TEST_F(Draw, AReducedPictureIsCachedAtItsSizeAndAnyOtherApart) {
+  const Image picture = noise_picture(31, 27, 4);
+  const TextureKey key{7, 1};
+  const auto draw = [&](float scale, bool with_pixels) {
+    renderer().begin_frame(96, 80);
+    renderer().clear(srgb(0x283c5a));
+    renderer().draw_sprite({.image = with_pixels ? ImageView(picture) : ImageView(),
+                            .key = key,
+                            .position = {9.4f, 6.6f},
+                            .scale = scale});
+    renderer().end_frame();
+    return renderer().read_pixels();
+  };
+  const Image first = draw(0.4f, true);
+  EXPECT_FALSE(renderer().is_cached(key));
+  EXPECT_TRUE(renderer().is_cached(reduced_key(key, 0.4f)));
+  EXPECT_EQ(reduced_key(key, 0.4f), reduced_key(key, 0.5f));
+  EXPECT_NE(reduced_key(key, 0.4f), reduced_key(key, 0.25f));
+  EXPECT_EQ(reduced_key(key, 0.51f), key);
+  EXPECT_EQ(largest_difference(draw(0.4f, false), first), 0);
+  // Where the whole picture is there, it does for any size.
+  (void)draw(1, true);
+  EXPECT_TRUE(renderer().is_cached(key));
+  const Image reduced = draw(0.2f, false);
+  EXPECT_NE(color_at(reduced, 11, 8), color_at(reduced, 90, 70));
+  renderer().forget(7);
+}
+
 TEST_F(Draw, EncodesEveryGreyExactly) {
   renderer().begin_frame(256, 4);
   for (int i = 0; i < 256; ++i) {

@@ -46,7 +46,9 @@ struct Camera {
 struct TextureKey {
   std::uint64_t sprite = 0;
   std::uint32_t sample = 0;
-  std::uint32_t variant = 0;  ///< 0: the picture itself; else its shadow (shadow_key)
+  /// 0: the picture itself; else its shadow (shadow_key), or the picture made smaller
+  /// (reduced_key).
+  std::uint32_t variant = 0;
   friend bool operator==(const TextureKey&, const TextureKey&) = default;
 };
 
@@ -61,12 +63,13 @@ struct Fade {
 
 /// One picture to draw. The anchor comes to lie at `position`, exactly, also between pixels.
 struct SpriteDraw {
-  ImageView image{};  ///< premultiplied sRGB; may be empty where is_cached(key)
-  TextureKey key{};   ///< the same key must always mean the same picture, until forget(sprite)
-  Vec2 position{};    ///< game coordinates
-  Vec2 anchor{};      ///< px of the image
-  float scale = 1;    ///< game pixels per image pixel, > 0; shrinking is area-averaged down to 1/4
-  float angle = 0;    ///< radians clockwise, about the anchor
+  /// Premultiplied sRGB; may be empty where is_cached(reduced_key(key, scale on the frame)).
+  ImageView image{};
+  TextureKey key{};      ///< the same key must always mean the same picture, until forget(sprite)
+  Vec2 position{};       ///< game coordinates
+  Vec2 anchor{};         ///< px of the image
+  float scale = 1;       ///< game pixels per image pixel, > 0; shrinking is area-averaged
+  float angle = 0;       ///< radians clockwise, about the anchor
   bool mirror = false;   ///< left and right exchanged, about the anchor
   Color tint{};          ///< multiplies colour; tint.a multiplies coverage
   Color fog{};           ///< colour of the water or air in between (its alpha is not used) ...
@@ -84,6 +87,9 @@ struct Shadow {
   Vec2 offset{};         ///< from the subject, game pixels: how high it hovers
   Color color{0, 0, 0};
 };
+/// The name under which a picture is cached that is drawn at `scale`, frame pixels a pixel of its
+/// own: from a half downwards it is kept at half its size, from a quarter at a quarter, and so on.
+TextureKey reduced_key(const TextureKey& picture, float scale) noexcept;
 /// The name under which the shadow of a picture is cached.
 TextureKey shadow_key(const TextureKey& picture, const Shadow& shadow) noexcept;
 
