@@ -137,6 +137,7 @@ struct Row {
 };
 
 constexpr std::string_view kSegment = " segment build play ";
+constexpr std::string_view kKeying = " segment build play doctor ";
 constexpr std::string_view kTrain = " train build play ";
 constexpr std::string_view kTransitions = " transitions build play ";
 constexpr std::string_view kSolve = " solve build play ";
@@ -144,7 +145,7 @@ constexpr std::string_view kSolve = " solve build play ";
 void add_stage_options(Row& t) {
   t.text("key", "KEY", &Settings::key,
          "background: auto, plate (standing camera), alpha (the film's own), none, or #RRGGBB",
-         " segment build play doctor ");
+         kKeying);
   t.options.back().set = [](Settings& s, const std::string& v) -> Result<void> {
     if (const auto parsed = parse_key(v); !parsed) return parsed.error();
     s.key = v;
@@ -153,21 +154,21 @@ void add_stage_options(Row& t) {
   t.real(
       "clip-black", "A", &Settings::clip_black, 0, 0.9, false,
       "so much coverage becomes none, and what is above is stretched: takes haze and shadows off",
-      kSegment);
+      kKeying);
   t.real("clip-white", "A", &Settings::clip_white, 0.1, 1, false,
-         "so much coverage becomes all: closes holes and thin places", kSegment);
+         "so much coverage becomes all: closes holes and thin places", kKeying);
   t.real("edge", "PX", &Settings::edge, -8, 4, false,
          "moves the edge, film px: below 0 inwards, off a rim of screen; above 0 outwards",
-         kSegment);
+         kKeying);
   t.real("despill", "X", &Settings::despill, 0, 2, false,
          "a coloured screen's tint: 0 stays, 1 goes where the subject nearby has none, 2 goes "
          "everywhere",
-         kSegment);
+         kKeying);
   t.text("matte", "FILE", &Settings::matte,
          "film or pictures beside the film whose brightness is the coverage: nothing is keyed",
-         " segment build play doctor ");
+         kKeying);
   t.real("fps", "RATE", &Settings::fps, 1, 1000, false,
-         "pictures a second where the film is a row of pictures", " segment build play doctor ");
+         "pictures a second where the film is a row of pictures", kKeying);
   t.flag("draft", &Settings::draft,
          "every second frame, pictures of at most 128 px: a first look in a third of the time",
          kSegment);

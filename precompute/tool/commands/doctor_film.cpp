@@ -36,6 +36,7 @@ struct Patient {
   FilmInfo info;
   double fps = 30, seconds = 0;
   ScreenModel screen;
+  MatteConfig matte;
   Checkup c;
 
   double usable() const { return seconds * std::max(c.whole - c.several, 0.0); }
@@ -236,10 +237,10 @@ Json measures_of(const Patient& p) {
           {"heading_seconds", headings}};
 }
 
-void key_burst(const ScreenModel& screen, Burst& burst) {
+void key_burst(const ScreenModel& screen, const MatteConfig& matte, Burst& burst) {
   burst.keyed.resize(burst.frames.size());
   tbb::parallel_for(std::size_t{0}, burst.frames.size(), [&](std::size_t f) {
-    Keyer keyer(screen, MatteConfig{});
+    Keyer keyer(screen, matte);
     burst.keyed[f] = keyer.key(burst.frames[f], nullptr);
   });
 }
@@ -256,7 +257,7 @@ Result<Checkup> look_through(FilmReader& reader, const Patient& p) {
                        frame.index == burst.frames.back().index + 1 &&
                        burst.frames.size() < kBurstFrames;
     if (!joins) {
-      key_burst(p.screen, burst);
+      key_burst(p.screen, p.matte, burst);
       meter.add(burst);
       burst = {};
     }
@@ -277,6 +278,8 @@ void check_film(const Settings& settings, const std::string& path, Findings& fin
       "play it with another program, or convert it: ffmpeg -i FILE new.mp4";
   const auto key = parse_key(settings.key);
   if (!key) return broken(key.error(), "name a colour as #RRGGBB");
+  const auto matte = matte_of(settings);
+  if (!matte) return broken(matte.error(), "raise --clip-white, or lower --clip-black");
   auto reader = FilmReader::open_bursts(source_of(settings, path), kBursts, kBurstFrames);
   if (!reader)
     return broken(reader.error(), reader.error().code == ErrorCode::NotFound
@@ -284,6 +287,7 @@ void check_film(const Settings& settings, const std::string& path, Findings& fin
                                       : kConvert);
   Patient p;
   p.path = path;
+  p.matte = *matte;
   p.info = reader->info();
   p.fps = static_cast<double>(p.info.fps_numerator) / p.info.fps_denominator;
   p.seconds = p.info.counted_frames / p.fps;
