@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -131,16 +132,16 @@ Result<void> check_settings(const SolveConfig& config) {
   if (!(config.w1 >= 0 && config.w1 < 1e6)) return bad_setting("w1", config.w1, "0 to 1000000");
   if (!(config.cap > 0)) return bad_setting("cap", config.cap, "a number above 0");
   if (config.free_steps < 0 || config.free_steps > 10) {
-    return bad_setting("free_steps", config.free_steps, "0 to 10");
+    return bad_setting("free-steps", config.free_steps, "0 to 10");
   }
   if (config.headings != 8 && config.headings != 16 && config.headings != 32) {
     return bad_setting("directions", config.headings, "8, 16 or 32");
   }
   const int tables = (config.headings + 2) * (config.free_steps + 1);
   if (tables > 256) {
-    return bad_setting("free_steps", config.free_steps,
-                       "so many directions allow at most " +
-                           std::to_string(256 / (config.headings + 2) - 1) + "; less");
+    return bad_setting("free-steps", config.free_steps,
+                       "with " + std::to_string(config.headings) + " directions at most " +
+                           std::to_string(256 / (config.headings + 2) - 1));
   }
   return {};
 }
@@ -150,8 +151,10 @@ Result<void> check_settings(const SolveConfig& config) {
 namespace detail {
 
 Error bad_setting(const std::string& name, double found, const std::string& due) {
-  return {ErrorCode::BadSetting, "solve: " + name + " is " + std::to_string(found) + ", " + due +
-                                     " is due; correct the setting"};
+  char number[32];
+  std::snprintf(number, sizeof number, "%g", found);
+  return {ErrorCode::BadSetting,
+          "solve: " + name + " is " + number + ", " + due + " is due; correct the setting"};
 }
 
 Result<void> check_graph(const CostTable& costs, std::size_t samples, double v0) {

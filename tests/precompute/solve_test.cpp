@@ -154,5 +154,18 @@ TEST(Solve, RefusesAnAlphaOfOne) {
   }
 }
 
+TEST(Solve, SaysWhichSettingDoesNotFitAndWhatIsDue) {
+  Random random{6};
+  const CostTable costs = random_costs(5, random);
+  const auto v = random_velocities(6, random);
+  const auto negative = solve(costs, v, 20, {.w1 = -1});
+  ASSERT_FALSE(negative);
+  EXPECT_EQ(negative.error().message, "solve: w1 is -1, 0 to 1000000 is due; correct the setting");
+  const auto large = solve(costs, v, 20, {.free_steps = 10, .headings = 32});
+  ASSERT_FALSE(large);
+  EXPECT_EQ(large.error().message,
+            "solve: free-steps is 10, with 32 directions at most 6 is due; correct the setting");
+}
+
 }  // namespace
 }  // namespace vsprite
