@@ -92,6 +92,61 @@ void BM_Ours(benchmark::State& state) {
 }
 BENCHMARK(BM_Ours);
 
+Bytes blocks_of(const Image& image) {
+  Bytes out;
+  detail::squeeze_blocks(detail::encode_blocks(image), out);
+  return out;
+}
+
+// GPU-ready pictures, lossy: to pixels, for those who draw on the CPU.
+void BM_OursGpuToPixels(benchmark::State& state) {
+  Bytes blocks;
+  run(state, blocks_of, [&](const Bytes& bytes, Image& out) {
+    benchmark::DoNotOptimize(detail::hash_bytes(bytes));
+    if (!detail::unsqueeze_blocks(bytes, out.width, out.height, blocks)) return false;
+    detail::decode_blocks(blocks, out.width, out.height, out);
+    return true;
+  });
+}
+BENCHMARK(BM_OursGpuToPixels);
+
+// The same to what the GPU is sent; counted as RGBA delivered.
+void BM_OursGpuToBlocks(benchmark::State& state) {
+  Bytes blocks;
+  run(state, blocks_of, [&](const Bytes& bytes, Image& out) {
+    benchmark::DoNotOptimize(detail::hash_bytes(bytes));
+    const bool done = detail::unsqueeze_blocks(bytes, out.width, out.height, blocks);
+    benchmark::DoNotOptimize(blocks.data());
+    return done;
+  });
+}
+BENCHMARK(BM_OursGpuToBlocks);
+
+// Beside it: the plain blocks, LZ4 over them.
+void BM_BlocksLz4Hc(benchmark::State& state) {
+  Bytes blocks;
+  run(
+      state,
+      [](const Image& image) {
+        const Bytes plain = detail::encode_blocks(image);
+        Bytes out(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(plain.size()))));
+        out.resize(static_cast<std::size_t>(LZ4_compress_HC(
+            reinterpret_cast<const char*>(plain.data()), reinterpret_cast<char*>(out.data()),
+            static_cast<int>(plain.size()), static_cast<int>(out.size()), 9)));
+        return out;
+      },
+      [&](const Bytes& bytes, Image& out) {
+        const detail::BlockGrid grid(out.width, out.height);
+        blocks.resize(grid.count() * detail::kBlockBytes);
+        benchmark::DoNotOptimize(blocks.data());
+        return LZ4_decompress_safe(
+                   reinterpret_cast<const char*>(bytes.data()),
+                   reinterpret_cast<char*>(blocks.data()), static_cast<int>(bytes.size()),
+                   static_cast<int>(blocks.size())) == static_cast<int>(blocks.size());
+      });
+}
+BENCHMARK(BM_BlocksLz4Hc);
+
 void BM_LibPng(benchmark::State& state) {
   run(
       state,

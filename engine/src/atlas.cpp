@@ -5,6 +5,7 @@
 #include "atlas.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace vsprite::detail {
 
@@ -34,30 +35,44 @@ std::optional<Rect> Atlas::place(PageState& page, int width, int height) {
   return rect;
 }
 
-std::optional<Atlas::Placed> Atlas::insert(const TextureKey& key, int width, int height) {
+std::optional<Atlas::Placed> Atlas::insert(const TextureKey& key, int width, int height,
+                                           PageForm form) {
+  const int inner_width = width, inner_height = height;
+  if (form == PageForm::Blocks) {
+    width = (width + 3) / 4 * 4;
+    height = (height + 3) / 4 * 4;
+  }
   if (width > max_side_ || height > max_side_) return std::nullopt;
   const auto enter = [&](std::size_t index, const Rect& rect, Page page) {
     pages_[index].last_use = ++clock_;
     pages_[index].keys.push_back(key);
-    const AtlasSlot slot{static_cast<int>(index), rect, {}};
+    const AtlasSlot slot{static_cast<int>(index), {rect.x, rect.y, inner_width, inner_height}, {}};
     slots_[key] = slot;
     return Placed{slot, page};
   };
   for (std::size_t i = pages_.size(); i-- > 0;) {
+    if (pages_[i].form != form) continue;
     if (const auto rect = place(pages_[i], width, height)) return enter(i, *rect, Page::Same);
   }
   const int page_width = std::max(page_side_, width);
   const int page_height = std::max(page_side_, height);
-  const std::size_t page_bytes = std::size_t(page_width) * std::size_t(page_height) * texel_;
-  if (pages_.size() < 2 || bytes_ + page_bytes <= budget_) {
-    pages_.push_back({page_width, page_height, 0, 0, {}, {}});
-    bytes_ += page_bytes;
+  PageState fresh;
+  fresh.width = page_width;
+  fresh.height = page_height;
+  fresh.form = form;
+  if (pages_.size() < 2 || bytes_ + fresh.bytes() <= budget_) {
+    bytes_ += fresh.bytes();
+    pages_.push_back(std::move(fresh));
     return enter(pages_.size() - 1, *place(pages_.back(), width, height), Page::New);
   }
-  // The oldest page goes; one that is too small for this picture is made anew, larger.
+  // The oldest page goes; one that is too small or of the other form is made anew.
+  // One whose place the budget has room for comes first.
+  const auto rank = [&](const PageState& page) {
+    return std::pair(bytes_ - page.bytes() + fresh.bytes() > budget_, page.last_use);
+  };
   std::size_t oldest = 0;
   for (std::size_t i = 1; i < pages_.size(); ++i) {
-    if (pages_[i].last_use < pages_[oldest].last_use) oldest = i;
+    if (rank(pages_[i]) < rank(pages_[oldest])) oldest = i;
   }
   PageState& page = pages_[oldest];
   for (const TextureKey& gone : page.keys) {
@@ -69,10 +84,11 @@ std::optional<Atlas::Placed> Atlas::insert(const TextureKey& key, int width, int
   page.shelves.clear();
   page.filled = 0;
   Page what = Page::Emptied;
-  if (page.width < width || page.height < height) {
-    bytes_ += page_bytes - std::size_t(page.width) * std::size_t(page.height) * texel_;
+  if (page.width < width || page.height < height || page.form != form) {
+    bytes_ += fresh.bytes() - page.bytes();
     page.width = page_width;
     page.height = page_height;
+    page.form = form;
     what = Page::New;
   }
   return enter(oldest, *place(page, width, height), what);

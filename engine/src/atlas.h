@@ -27,6 +27,13 @@ struct KeyHash {
   }
 };
 
+/// What the texels of a page are.
+enum class PageForm : std::uint8_t {
+  Halves,  ///< four half floats
+  Blocks   ///< BC3; pictures lie at multiples of 4
+};
+constexpr std::size_t texel_bytes(PageForm form) { return form == PageForm::Halves ? 8 : 1; }
+
 struct AtlasSlot {
   int page = 0;
   Rect rect;
@@ -37,8 +44,8 @@ struct AtlasSlot {
 
 class Atlas {
  public:
-  Atlas(int page_side, int max_side, std::size_t budget, std::size_t bytes_per_texel)
-      : page_side_(page_side), max_side_(max_side), budget_(budget), texel_(bytes_per_texel) {}
+  Atlas(int page_side, int max_side, std::size_t budget)
+      : page_side_(page_side), max_side_(max_side), budget_(budget) {}
 
   /// Counts as a use of its page.
   std::optional<AtlasSlot> find(const TextureKey& key) noexcept;
@@ -54,7 +61,8 @@ class Atlas {
     Page page = Page::Same;
   };
   /// Nothing if the picture is larger than any page can be.
-  std::optional<Placed> insert(const TextureKey& key, int width, int height);
+  std::optional<Placed> insert(const TextureKey& key, int width, int height,
+                               PageForm form = PageForm::Halves);
   void forget(std::uint64_t sprite);
 
   int page_width(int page) const noexcept { return pages_[static_cast<std::size_t>(page)].width; }
@@ -67,14 +75,19 @@ class Atlas {
   };
   struct PageState {
     int width = 0, height = 0, filled = 0;
+    PageForm form = PageForm::Halves;
     std::uint64_t last_use = 0;
     std::vector<Shelf> shelves;
     std::vector<TextureKey> keys;
+
+    std::size_t bytes() const {
+      return std::size_t(width) * std::size_t(height) * texel_bytes(form);
+    }
   };
   std::optional<Rect> place(PageState& page, int width, int height);
 
   int page_side_, max_side_;
-  std::size_t budget_, texel_, bytes_ = 0;
+  std::size_t budget_, bytes_ = 0;
   std::uint64_t clock_ = 0;
   std::vector<PageState> pages_;
   std::unordered_map<TextureKey, AtlasSlot, KeyHash> slots_;

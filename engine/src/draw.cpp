@@ -25,6 +25,12 @@ using detail::Surface;
 
 namespace {
 
+std::array<float, 4> to_floats(const std::array<int, 4>& numbers) {
+  std::array<float, 4> out{};
+  for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<float>(numbers[k]);
+  return out;
+}
+
 /// How far each corner of a picture is clear: the least x + y of a pixel that is not, from there.
 std::array<float, 4> clear_corners(ImageView image) {
   const int most = std::min(image.width, image.height) / 2;
@@ -40,9 +46,26 @@ std::array<float, 4> clear_corners(ImageView image) {
     cuts[2] = std::min(cuts[2], last + up);
     cuts[3] = std::min(cuts[3], first + up);
   }
-  std::array<float, 4> out{};
-  for (std::size_t k = 0; k < 4; ++k) out[k] = static_cast<float>(cuts[k]);
-  return out;
+  return to_floats(cuts);
+}
+
+/// The same by whole blocks, of which the first begins a texel before the picture.
+std::array<float, 4> clear_corners(BlockView blocks) {
+  const int most = std::min(blocks.width, blocks.height) / 2;
+  std::array<int, 4> cuts{most, most, most, most};
+  const std::uint8_t* block = blocks.bytes;
+  for (int y = 0; y < blocks.rows(); ++y) {
+    for (int x = 0; x < blocks.columns(); ++x, block += 16) {
+      if (std::all_of(block, block + 16, [](std::uint8_t b) { return b == 0; })) continue;
+      const int left = std::max(0, 4 * x - 1), right = std::max(0, blocks.width - 4 * x - 3);
+      const int top = std::max(0, 4 * y - 1), bottom = std::max(0, blocks.height - 4 * y - 3);
+      cuts[0] = std::min(cuts[0], left + top);
+      cuts[1] = std::min(cuts[1], right + top);
+      cuts[2] = std::min(cuts[2], right + bottom);
+      cuts[3] = std::min(cuts[3], left + bottom);
+    }
+  }
+  return to_floats(cuts);
 }
 
 /// How many pixels of a picture that is drawn at `scale` go into a texel, along either side.
@@ -199,11 +222,10 @@ void Renderer::Impl::use_surface(Surface* surface) {
   if (surface != nullptr) gl::draw_to(device, surface->main);
 }
 
-std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, ImageView image,
-                                                       int side) {
-  const int columns = (image.width + side - 1) / side, rows = (image.height + side - 1) / side;
-  const int width = columns + 2, height = rows + 2;  // a border of zeros
-  const auto placed = atlas.insert(key, width, height);
+// Room on a page that stands ready.
+std::optional<detail::AtlasSlot> Renderer::Impl::place(const TextureKey& key, int width, int height,
+                                                       detail::PageForm form) {
+  const auto placed = atlas.insert(key, width, height, form);
   if (!placed) return std::nullopt;
   const std::size_t index = static_cast<std::size_t>(placed->slot.page);
   if (placed->page != detail::Atlas::Page::Same) {
@@ -216,9 +238,23 @@ std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, Im
   }
   if (placed->page == detail::Atlas::Page::New) {
     if (pages[index] != 0) gl::free_texture(device, pages[index]);
-    pages[index] = gl::make_texture(device, atlas.page_width(placed->slot.page),
-                                    atlas.page_height(placed->slot.page));
+    const int page_width = atlas.page_width(placed->slot.page),
+              page_height = atlas.page_height(placed->slot.page);
+    pages[index] = form == detail::PageForm::Blocks
+                       ? gl::make_block_texture(device, page_width, page_height)
+                       : gl::make_texture(device, page_width, page_height);
   }
+  ++stats.uploads;
+  stats.texture_bytes = atlas.bytes();
+  return placed->slot;
+}
+
+std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, ImageView image,
+                                                       int side) {
+  const int columns = (image.width + side - 1) / side, rows = (image.height + side - 1) / side;
+  const int width = columns + 2, height = rows + 2;  // a border of zeros
+  auto slot = place(key, width, height, detail::PageForm::Halves);
+  if (!slot) return std::nullopt;
   staging.assign(std::size_t(width) * std::size_t(height) * 4, 0);
   for (int y = 0; y < rows; ++y) {
     std::uint16_t* out = &staging[(std::size_t(y + 1) * std::size_t(width) + 1) * 4];
@@ -230,26 +266,38 @@ std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, Im
       }
     }
   }
-  gl::upload(device, pages[index], placed->slot.rect, staging.data());
-  ++stats.uploads;
-  stats.texture_bytes = atlas.bytes();
-  detail::AtlasSlot slot = placed->slot;
-  slot.cuts = clear_corners(image);
+  gl::upload(device, pages[static_cast<std::size_t>(slot->page)], slot->rect, staging.data());
+  slot->cuts = clear_corners(image);
   if (side > 1) {
-    for (float& cut : slot.cuts)
+    for (float& cut : slot->cuts)
       cut = std::max(0.0f, std::floor(cut / static_cast<float>(side)) - 1);
   }
-  atlas.set_cuts(key, slot.cuts);
+  atlas.set_cuts(key, slot->cuts);
+  return slot;
+}
+
+std::optional<detail::AtlasSlot> Renderer::Impl::store(const TextureKey& key, BlockView blocks) {
+  // The border of zeros is theirs already.
+  auto slot = place(key, blocks.width + 2, blocks.height + 2, detail::PageForm::Blocks);
+  if (!slot) return std::nullopt;
+  gl::upload_blocks(device, pages[static_cast<std::size_t>(slot->page)],
+                    {slot->rect.x, slot->rect.y, 4 * blocks.columns(), 4 * blocks.rows()},
+                    blocks.bytes);
+  slot->cuts = clear_corners(blocks);
+  atlas.set_cuts(key, slot->cuts);
   return slot;
 }
 
 std::optional<detail::AtlasSlot> Renderer::Impl::find_or_store(const TextureKey& key,
-                                                               ImageView image, int side) {
+                                                               ImageView image, int side,
+                                                               BlockView blocks) {
   if (key.sprite != 0) {
     if (const auto slot = atlas.find(key)) return slot;
   }
+  const TextureKey name = key.sprite != 0 ? key : TextureKey{0, uncached++};
+  if (blocks.bytes != nullptr && takes_blocks()) return store(name, blocks);
   if (image.rgba == nullptr || image.width <= 0 || image.height <= 0) return std::nullopt;
-  return store(key.sprite != 0 ? key : TextureKey{0, uncached++}, image, side);
+  return store(name, image, side);
 }
 
 void Renderer::Impl::push_picture(const detail::Picture& p) {
@@ -359,6 +407,8 @@ bool Renderer::is_cached(const TextureKey& key) const noexcept {
   return key.sprite != 0 && impl_->atlas.has(key);
 }
 
+bool Renderer::takes_blocks() const noexcept { return impl_->takes_blocks(); }
+
 void Renderer::forget(std::uint64_t sprite) { impl_->atlas.forget(sprite); }
 
 TextureKey reduced_key(const TextureKey& picture, float scale) noexcept {
@@ -373,10 +423,11 @@ void Renderer::draw_sprite(const SpriteDraw& s) {
   int side = reduction(std::fabs(s.scale * m.camera.scale));
   // Who knows that the whole picture is there need not give it again.
   if (s.image.rgba == nullptr && !m.atlas.has(reduced(s.key, side))) side = 1;
+  if (s.blocks.bytes != nullptr || s.fade.blocks.bytes != nullptr) side = 1;
   const TextureKey key = reduced(s.key, side), old_key = reduced(s.fade.key, side);
   // The older picture first: it is the one that is likely to be there.
-  if (fades) p.old = m.find_or_store(old_key, s.fade.image, side);
-  const auto slot = m.find_or_store(key, s.image, side);
+  if (fades) p.old = m.find_or_store(old_key, s.fade.image, side, s.fade.blocks);
+  const auto slot = m.find_or_store(key, s.image, side, s.blocks);
   if (!slot) return;
   // Storing one may have emptied the page of the other.
   if (fades && s.fade.key.sprite != 0) p.old = m.atlas.find(old_key);

@@ -17,29 +17,38 @@ TextureKey key_of(const Sprite& sprite, std::uint32_t sample) {
   return {reinterpret_cast<std::uintptr_t>(&sprite.data()), sample};
 }
 
-// The picture that is shown and the one that fades out of it; pixels only where `is_there` says no.
+// The picture that is shown and the one that fades out of it; pixels, or blocks, only where
+// `is_there` says no.
 template <class IsThere>
-SpriteDraw sprite_of(const ActorDraw& a, float fraction, const IsThere& is_there) {
+SpriteDraw sprite_of(const ActorDraw& a, float fraction, bool takes_blocks,
+                     const IsThere& is_there) {
   SpriteDraw s = a.look;
   const Sprite& sprite = *a.sprite;
   const Vec2 at = draw_position(sprite, *a.actor, fraction);
   s.position = {at.x + a.look.position.x, at.y + a.look.position.y};
   s.anchor = sprite.samples()[a.actor->sample].anchor;
   s.key = key_of(sprite, a.actor->sample);
+  const auto fetch = [&](std::uint32_t sample, auto& into) {
+    if (is_there(into.key)) return;
+    if (takes_blocks) into.blocks = a.frames->blocks(sample);
+    if (into.blocks.bytes == nullptr) into.image = a.frames->frame(sample);
+  };
   const float share = a.fade != nullptr ? fade_share(*a.fade, fraction) : 0.0f;
   if (share > 0) {
     s.fade.share = share;
     s.fade.anchor = sprite.samples()[a.fade->before].anchor;
     s.fade.key = key_of(sprite, a.fade->before);
-    if (!is_there(s.fade.key)) s.fade.image = a.frames->frame(a.fade->before);
+    fetch(a.fade->before, s.fade);
   }
-  if (!is_there(s.key)) s.image = a.frames->frame(a.actor->sample);
+  fetch(a.actor->sample, s);
   return s;
 }
 
 void draw_one(Renderer& renderer, const ActorDraw& a, float fraction) {
-  const float scale = a.look.scale * renderer.camera().scale;
-  renderer.draw_sprite(sprite_of(a, fraction, [&](const TextureKey& key) {
+  // Blocks are drawn as they are, whatever the scale.
+  const bool takes_blocks = renderer.takes_blocks() && a.sprite->has_blocks();
+  const float scale = takes_blocks ? 1 : a.look.scale * renderer.camera().scale;
+  renderer.draw_sprite(sprite_of(a, fraction, takes_blocks, [&](const TextureKey& key) {
     return renderer.is_cached(reduced_key(key, scale));
   }));
   a.frames->look_ahead(*a.actor);
@@ -66,7 +75,7 @@ void draw_actors(Renderer& renderer, std::span<const ActorDraw> actors, float fr
       const auto is_there = [&](const TextureKey& key) {
         return renderer.is_cached(shadow_key(key, *shadow));
       };
-      renderer.draw_shadow(sprite_of(a, fraction, is_there), *shadow);
+      renderer.draw_shadow(sprite_of(a, fraction, false, is_there), *shadow);
     }
   }
   std::vector<std::pair<float, const ActorDraw*>> order;

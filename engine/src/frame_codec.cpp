@@ -86,7 +86,7 @@ std::span<std::uint8_t> FrameCodec::input(std::size_t bytes) {
 }
 
 bool FrameCodec::read_parts(int width, int height) {
-  const std::span<const std::uint8_t> bytes(buffer_.data(), size_);
+  const std::span<const std::uint8_t> bytes = this->bytes();
   if (bytes.size() < kFrameHead || bytes[0] != kFrameForm) return false;
   parts_.width = width;
   parts_.height = height;
@@ -110,6 +110,11 @@ bool FrameCodec::read_parts(int width, int height) {
 }
 
 bool FrameCodec::decode(int width, int height, Image& image) {
+  if (is_blocks()) {
+    if (!unsqueeze_blocks(bytes(), width, height, blocks_)) return false;
+    decode_blocks(blocks_, width, height, image);
+    return true;
+  }
   if (!read_parts(width, height)) return false;
   image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   image.width = width;
@@ -120,10 +125,13 @@ bool FrameCodec::decode(int width, int height, Image& image) {
 }
 
 bool FrameCodec::decode(int width, int height, TrimmedImage& image) {
-  if (!decode(width, height, whole_)) return false;
   image.width = width;
   image.height = height;
   image.rows.clear();
+  image.rgba.clear();
+  image.blocks.clear();
+  if (is_blocks()) return unsqueeze_blocks(bytes(), width, height, image.blocks);
+  if (!decode(width, height, whole_)) return false;
   image.rows.reserve(parts_.rows.size());
   std::size_t pixels = 0;
   const Run* run = parts_.runs.data();
@@ -132,7 +140,6 @@ bool FrameCodec::decode(int width, int height, TrimmedImage& image) {
     run += head.runs;
     pixels += image.rows.back().end - image.rows.back().begin;
   }
-  image.rgba.clear();
   image.rgba.reserve(4 * pixels);
   const std::uint8_t* from = whole_.rgba.data();
   for (const Run& row : image.rows) {
@@ -144,6 +151,8 @@ bool FrameCodec::decode(int width, int height, TrimmedImage& image) {
 }
 
 void expand(const TrimmedImage& trimmed, Image& image) {
+  if (!trimmed.blocks.empty())
+    return decode_blocks(trimmed.blocks, trimmed.width, trimmed.height, image);
   const auto width = static_cast<std::size_t>(trimmed.width);
   image.rgba.clear();
   image.rgba.reserve(4 * width * trimmed.rows.size());

@@ -13,13 +13,14 @@
 #include <span>
 #include <vector>
 
+#include "block_codec.h"
 #include "vsprite/image.h"
 
 namespace vsprite::detail {
 
 inline constexpr std::size_t kBlock = 8;                ///< residuals that share a width
 inline constexpr std::size_t kFrameHead = 4;            ///< form and three factors
-inline constexpr std::uint8_t kFrameForm = 1;           ///< the only form so far
+inline constexpr std::uint8_t kFrameForm = 1;           ///< the lossless one
 inline constexpr int kFactorShift = 3, kMaxFactor = 8;  ///< factors of alpha are in eighths
 /// Bits of a residual, by its 3-bit code. A 7 would cost a code and save little.
 inline constexpr std::array<std::uint8_t, 8> kWidths{0, 1, 2, 3, 4, 5, 6, 8};
@@ -58,8 +59,11 @@ struct TrimmedImage {
   int width = 0, height = 0;
   std::vector<Run> rows;           ///< (height), what is held of each
   std::vector<std::uint8_t> rgba;  ///< row after row
+  std::vector<std::uint8_t> blocks;  ///< instead of both: a GPU-ready picture (block_codec.h)
 
-  std::size_t bytes() const noexcept { return rgba.size() + rows.size() * sizeof(Run); }
+  std::size_t bytes() const noexcept {
+    return rgba.size() + rows.size() * sizeof(Run) + blocks.size();
+  }
 };
 /// The whole picture. May throw std::bad_alloc.
 void expand(const TrimmedImage& trimmed, Image& image);
@@ -79,6 +83,8 @@ class FrameCodec {
   bool decode(int width, int height, TrimmedImage& image);
 
  private:
+  bool is_blocks() const { return size_ > 0 && buffer_[0] == kBlockForm; }
+  std::span<const std::uint8_t> bytes() const { return {buffer_.data(), size_}; }
   bool read_parts(int width, int height);
 
   std::size_t size_ = 0;
@@ -86,6 +92,7 @@ class FrameCodec {
   FrameParts parts_;
   std::vector<std::uint8_t> scratch_;  ///< residuals while decoding
   Image whole_;                        ///< before it is trimmed
+  std::vector<std::uint8_t> blocks_;
 };
 
 /// Bytes of scratch that decode_parts needs.

@@ -13,31 +13,36 @@
 #include <GL/glcorearb.h>
 #endif
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
+#include <iterator>
+#include <vector>
 
 namespace vsprite::detail::gl {
 
 #define VSPRITE_GL_FUNCTIONS(F)                                                                    \
   F(ActiveTexture)                                                                                 \
-  F(AttachShader) F(BindBuffer) F(BindFramebuffer) F(BindRenderbuffer) F(BindTexture) F(           \
-      BindVertexArray) F(BlendEquation) F(BlendFunc) F(BlendFuncSeparate) F(BlitFramebuffer)       \
-      F(BufferData) F(CheckFramebufferStatus) F(Clear) F(ClearColor) F(ColorMask) F(CompileShader) \
-          F(CreateProgram) F(CreateShader) F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) \
-              F(DeleteRenderbuffers) F(DeleteShader) F(DeleteTextures) F(DeleteVertexArrays)       \
-                  F(DepthFunc) F(DepthMask) F(Disable) F(DrawArrays) F(DrawArraysInstanced)        \
-                      F(Enable) F(EnableVertexAttribArray) F(Finish) F(FramebufferRenderbuffer)    \
-                          F(FramebufferTexture2D) F(GenBuffers) F(GenFramebuffers)                 \
+  F(AttachShader)                                                                                  \
+  F(BindBuffer) F(BindFramebuffer) F(BindRenderbuffer) F(BindTexture) F(BindVertexArray)           \
+      F(BlendEquation) F(BlendFunc) F(BlendFuncSeparate) F(BlitFramebuffer) F(BufferData)          \
+          F(CheckFramebufferStatus) F(Clear) F(ClearColor) F(ColorMask) F(CompileShader)           \
+              F(CompressedTexImage2D) F(CompressedTexSubImage2D) F(CreateProgram) F(CreateShader)  \
+                  F(DeleteBuffers) F(DeleteFramebuffers) F(DeleteProgram) F(DeleteRenderbuffers)   \
+                      F(DeleteShader) F(DeleteTextures) F(DeleteVertexArrays) F(DepthFunc) F(      \
+                          DepthMask) F(Disable) F(DrawArrays) F(DrawArraysInstanced) F(Enable)     \
+                          F(EnableVertexAttribArray) F(Finish) F(FramebufferRenderbuffer) F(       \
+                              FramebufferTexture2D) F(GenBuffers) F(GenFramebuffers)               \
                               F(GenRenderbuffers) F(GenTextures) F(GenVertexArrays) F(GetIntegerv) \
                                   F(GetProgramInfoLog) F(GetProgramiv) F(GetShaderInfoLog)         \
-                                      F(GetShaderiv) F(GetString) F(GetUniformLocation)            \
-                                          F(LinkProgram) F(PixelStorei) F(ReadPixels)              \
-                                              F(RenderbufferStorage) F(ShaderSource) F(TexImage2D) \
-                                                  F(TexParameteri) F(TexSubImage2D) F(Uniform1fv)  \
-                                                      F(Uniform1i) F(Uniform2fv) F(Uniform3fv)     \
-                                                          F(Uniform4fv) F(UseProgram)              \
-                                                              F(VertexAttribDivisor)               \
+                                      F(GetShaderiv) F(GetString) F(GetStringi)                    \
+                                          F(GetUniformLocation) F(LinkProgram) F(PixelStorei)      \
+                                              F(ReadPixels) F(RenderbufferStorage) F(ShaderSource) \
+                                                  F(TexImage2D) F(TexParameteri) F(TexSubImage2D)  \
+                                                      F(Uniform1fv) F(Uniform1i) F(Uniform2fv)     \
+                                                          F(Uniform3fv) F(Uniform4fv)              \
+                                                              F(UseProgram) F(VertexAttribDivisor) \
                                                                   F(VertexAttribPointer)           \
                                                                       F(Viewport)
 
@@ -52,6 +57,7 @@ void FreeFunctions::operator()(const Functions* functions) const { delete functi
 namespace {
 
 constexpr GLenum kFramebufferSrgb = 0x8DB9;  // desktop only
+constexpr GLenum kSrgbDxt5 = 0x8C4F;         // COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT
 constexpr std::string_view kCoreHeader = "#version 330 core\n";
 constexpr std::string_view kEsHeader =
     "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
@@ -134,6 +140,25 @@ GLenum linear_format(const Device& device) {
   return device.half_target ? GL_RGBA16F : GL_SRGB8_ALPHA8;
 }
 
+/// True if the driver names one of the extensions that let BC3 be sampled as sRGB.
+bool has_srgb_blocks(const Device& device) {
+  constexpr std::string_view kAlone[] = {"GL_EXT_texture_compression_s3tc_srgb",
+                                         "GL_WEBGL_compressed_texture_s3tc_srgb",
+                                         "WEBGL_compressed_texture_s3tc_srgb"};
+  GLint count = 0;
+  device->GetIntegerv(GL_NUM_EXTENSIONS, &count);
+  bool s3tc = false, srgb = false;
+  for (GLint k = 0; k < count; ++k) {
+    const GLubyte* words = device->GetStringi(GL_EXTENSIONS, static_cast<GLuint>(k));
+    if (words == nullptr) continue;
+    const std::string_view name(reinterpret_cast<const char*>(words));
+    if (std::find(std::begin(kAlone), std::end(kAlone), name) != std::end(kAlone)) return true;
+    s3tc = s3tc || name == "GL_EXT_texture_compression_s3tc";
+    srgb = srgb || name == "GL_EXT_texture_sRGB";
+  }
+  return s3tc && srgb;
+}
+
 void set_filter(const Device& device, GLint wrap) {
   device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   device->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -169,6 +194,7 @@ Result<Device> probe(GlLoader load) {
   GLint size = 0;
   device->GetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
   device.max_size = size;
+  if (has_srgb_blocks(device)) device.block_format = kSrgbDxt5;
   device.half_target = true;
   Result<Target> trial = make_target(device, 4, 4, false);
   device.half_target = trial.has_value();
@@ -239,6 +265,24 @@ void upload(const Device& device, Id texture, const Rect& rect, const std::uint1
   device->PixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   device->TexSubImage2D(GL_TEXTURE_2D, 0, rect.x, rect.y, rect.width, rect.height, GL_RGBA,
                         GL_HALF_FLOAT, halves);
+}
+
+Id make_block_texture(const Device& device, int width, int height) {
+  Id id = 0;
+  device->GenTextures(1, &id);
+  bind(device, 0, id);
+  set_filter(device, GL_CLAMP_TO_EDGE);
+  const std::vector<std::uint8_t> clear(static_cast<std::size_t>(width) *
+                                        static_cast<std::size_t>(height));
+  device->CompressedTexImage2D(GL_TEXTURE_2D, 0, device.block_format, width, height, 0,
+                               static_cast<GLsizei>(clear.size()), clear.data());
+  return id;
+}
+
+void upload_blocks(const Device& device, Id texture, const Rect& rect, const std::uint8_t* blocks) {
+  bind(device, 0, texture);
+  device->CompressedTexSubImage2D(GL_TEXTURE_2D, 0, rect.x, rect.y, rect.width, rect.height,
+                                  device.block_format, rect.width * rect.height, blocks);
 }
 
 void bind(const Device& device, int unit, Id texture) {

@@ -34,6 +34,7 @@ struct Device {
   bool es = false;
   bool half_target = false;  ///< RGBA16F can be drawn into; else sRGB8, with the same blending
   int max_size = 0;          ///< of a texture's side
+  unsigned block_format = 0;  ///< BC3 that is sampled as sRGB; 0: the driver has none
 
   const Functions* operator->() const { return functions.get(); }
 };
@@ -74,6 +75,10 @@ void set_sampler(const Device& device, int location, int unit);
 /// Linear premultiplied half floats, bilinear, clamped.
 Id make_texture(const Device& device, int width, int height);
 void upload(const Device& device, Id texture, const Rect& rect, const std::uint16_t* halves);
+/// BC3 blocks, sampled as sRGB: all clear; sides and `rect` are multiples of 4.
+/// Pre: device.block_format != 0.
+Id make_block_texture(const Device& device, int width, int height);
+void upload_blocks(const Device& device, Id texture, const Rect& rect, const std::uint8_t* blocks);
 void bind(const Device& device, int unit, Id texture);
 void free_texture(const Device& device, Id texture);
 /// Numbers for texelFetch: width * height * 4 floats replace what `texture` (0: a new one) held.

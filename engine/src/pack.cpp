@@ -9,6 +9,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "pack_format.h"
 
@@ -107,6 +108,7 @@ Result<Sprite> load_pack_from(ByteSource source) {
     impl->frames = std::move(content.frames);
     impl->fram_offset = content.fram_offset;
     impl->identity = content.identity;
+    impl->has_blocks = content.loss.has_value();
     impl->source = std::move(source);
     return Sprite(std::move(impl));
   } catch (const std::bad_alloc&) {
@@ -165,11 +167,18 @@ Result<PackInfo> read_pack_info(const std::string& path) {
   if (!source) return source.error();
   try {
     detail::PackContent content;
-    if (detail::Check bad = detail::read_header(*source, content)) {
-      return detail::error_of(*source, *bad);
+    detail::Check bad = detail::read_header(*source, content);
+    if (!bad) bad = detail::read_loss(*source, content);
+    if (bad) return detail::error_of(*source, *bad);
+    PackInfo info{.major = content.major,
+                  .minor = content.minor,
+                  .bytes = source->size(),
+                  .sections = {},
+                  .loss = {}};
+    if (content.loss) {
+      const auto ratio = [](double error) { return 10 * std::log10(255.0 * 255.0 / error); };
+      info.loss = PackLoss{ratio(content.loss->colour), ratio(content.loss->alpha)};
     }
-    PackInfo info{
-        .major = content.major, .minor = content.minor, .bytes = source->size(), .sections = {}};
     for (const detail::SectionEntry& entry : content.sections) {
       info.sections.push_back({entry.name, entry.offset, entry.bytes});
     }

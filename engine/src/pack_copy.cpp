@@ -76,7 +76,8 @@ Result<void> copy_with_sections(const ByteSource& source, const std::string& to,
     if (auto wrote = file->write(at, extra.bytes); !wrote) return wrote;
     sections.push_back({extra.name, at, extra.bytes.size(), hash_bytes(extra.bytes)});
   }
-  if (auto wrote = file->write(0, header_bytes(sections, end).data); !wrote) return wrote;
+  if (auto wrote = file->write(0, header_bytes(sections, end, content->minor).data); !wrote)
+    return wrote;
   return file->finish();
 }
 

@@ -34,6 +34,7 @@ inline constexpr std::size_t kMetaBytes = 32;  ///< before the texts
 inline constexpr std::size_t kSampleBytes = 60;
 inline constexpr std::size_t kFrameBytes = 24;
 inline constexpr std::size_t kModeBytes = 128;  ///< before the name
+inline constexpr std::size_t kLossBytes = 16;
 
 // Flags of a CTRL section.
 inline constexpr unsigned kByState = 1, kPlaysThrough = 2;
@@ -86,6 +87,11 @@ struct FrameEntry {
   std::uint64_t sum = 0;     ///< XXH3-64 of the compressed bytes
 };
 
+/// LOSS: mean squared errors of the pictures, values 0..255.
+struct PictureErrors {
+  double colour = 0, alpha = 0;
+};
+
 /// Everything of a pack but its pictures.
 struct PackContent {
   std::uint16_t major = 0, minor = 0;
@@ -94,10 +100,12 @@ struct PackContent {
   SpriteData data;
   std::vector<FrameEntry> frames;
   std::uint64_t fram_offset = 0;
+  std::optional<PictureErrors> loss;
 };
 
 /// Reads and checks header, tables and indices: what load_pack relies on.
 Check read_header(const ByteSource& source, PackContent& content);
+Check read_loss(const ByteSource& source, PackContent& content);
 Check read_content(const ByteSource& source, PackContent& content);
 /// load_pack and verify_pack from any source; verifying stops after `most` issues.
 Result<Sprite> load_pack_from(ByteSource source);
@@ -126,7 +134,7 @@ class Bytes {
 };
 
 /// Header and section table of a file of `end` bytes, with their sum.
-Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end);
+Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end, std::uint16_t minor);
 
 /// Takes numbers off the front, little-endian. Pre: enough bytes are left.
 class Cursor {
@@ -177,6 +185,7 @@ struct Sprite::Impl {
   detail::ByteSource source;        ///< where the pictures lie
   std::vector<detail::FrameEntry> frames;  ///< empty: a sprite from data alone
   std::uint64_t fram_offset = 0;
+  bool has_blocks = false;         ///< the pack has LOSS
   mutable std::mutex mutex;        ///< guards the two below
   mutable std::size_t codecs = 0;  ///< made so far
   mutable std::vector<std::unique_ptr<detail::FrameCodec>> idle;

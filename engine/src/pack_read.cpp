@@ -560,6 +560,28 @@ Check read_header(const ByteSource& source, PackContent& content) {
   return check_names(content);
 }
 
+Check read_loss(const ByteSource& source, PackContent& content) {
+  for (const SectionEntry& entry : content.sections) {
+    if (entry.name != "LOSS") continue;
+    if (content.loss)
+      return finding("section-twice", "LOSS", entry.offset, "stands there more than once");
+    if (entry.bytes != kLossBytes)
+      return finding("loss", "LOSS", entry.offset,
+                     "two errors need 16 bytes, " + number(entry.bytes) + " are there");
+    Section section;
+    if (Check bad = read_section(source, entry, section)) return bad;
+    Cursor cursor(section.bytes);
+    PictureErrors& loss = content.loss.emplace();
+    loss.colour = cursor.get<double>();
+    loss.alpha = cursor.get<double>();
+    const auto is_error = [](double value) { return value >= 0 && value <= 255.0 * 255.0; };
+    if (!is_error(loss.colour) || !is_error(loss.alpha))
+      return finding("loss", "LOSS", entry.offset,
+                     "a mean squared error is not a number from 0 to 65025");
+  }
+  return {};
+}
+
 Check read_content(const ByteSource& source, PackContent& content) {
   SpriteData& data = content.data;
   std::uint32_t sample_count = 0;
@@ -571,6 +593,7 @@ Check read_content(const ByteSource& source, PackContent& content) {
   if (Check bad = read_tables(source, content)) return bad;
   if (Check bad = locate(check_sprite_data(data), content)) return bad;
   if (Check bad = read_optional(source, content)) return bad;
+  if (Check bad = read_loss(source, content)) return bad;
   if (Check bad = locate(check_picture_sizes(data), content)) return bad;
   if (Check bad = read_section(source, entry_of(content, "FIDX"), section)) return bad;
   return read_frames(section, content);

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 
+#include "block_codec.h"
 #include "pack_format.h"
 #include "sections.h"
 
@@ -108,8 +109,8 @@ Bytes mode_bytes(const ControlMode& mode) {
 // Puts sections into the file one behind the other and keeps their table.
 class PackWriter {
  public:
-  PackWriter(FileWriter file, std::size_t section_count)
-      : file_(std::move(file)), end_(kHeaderBytes + section_count * kEntryBytes) {}
+  PackWriter(FileWriter file, std::size_t section_count, std::uint16_t minor)
+      : file_(std::move(file)), end_(kHeaderBytes + section_count * kEntryBytes), minor_(minor) {}
 
   // Starts a section at the next multiple of 64; the gap before it is zeros.
   Result<void> begin(std::string_view name) {
@@ -142,7 +143,8 @@ class PackWriter {
   }
 
   Result<void> finish() {
-    if (auto written = file_.write(0, header_bytes(sections_, end_).data); !written) return written;
+    if (auto written = file_.write(0, header_bytes(sections_, end_, minor_).data); !written)
+      return written;
     return file_.finish();
   }
 
@@ -151,6 +153,7 @@ class PackWriter {
  private:
   FileWriter file_;
   std::uint64_t end_;
+  std::uint16_t minor_;
   std::vector<SectionEntry> sections_;
 };
 
@@ -161,12 +164,41 @@ Error misfit(const std::string& path, std::uint32_t sample, const Sample& s, con
               std::to_string(s.width) + " x " + std::to_string(s.height) + " is due"};
 }
 
+// One picture at a time, in the form that is wanted.
+class PictureWriter {
+ public:
+  explicit PictureWriter(PictureForm form) : form_(form) {}
+  // `image` premultiplied. Valid until the next call.
+  std::span<const std::uint8_t> encode(const Image& image) {
+    if (form_ == PictureForm::Exact) return codec_.encode(image);
+    blocks_ = encode_blocks(image);
+    decode_blocks(blocks_, image.width, image.height, decoded_);
+    loss_.add(image, decoded_);
+    squeeze_blocks(blocks_, bytes_);
+    return bytes_;
+  }
+  Bytes loss_bytes() const {
+    const double pixels = static_cast<double>(std::max<std::uint64_t>(loss_.pixels, 1));
+    Bytes out;
+    out.put(static_cast<double>(loss_.colour) / (3 * pixels));
+    out.put(static_cast<double>(loss_.alpha) / pixels);
+    return out;
+  }
+
+ private:
+  PictureForm form_;
+  FrameCodec codec_;
+  BlockLoss loss_;
+  std::vector<std::uint8_t> blocks_, bytes_;
+  Image decoded_;
+};
+
 // FRAM, one picture in memory at a time; fills `index` with FIDX.
 Result<void> write_frames(const std::string& path, const SpriteData& data,
-                          const FrameSource& frames, PackWriter& pack, Bytes& index) {
+                          const FrameSource& frames, PictureWriter& pictures, PackWriter& pack,
+                          Bytes& index) {
   XXH3_state_t sum;
   XXH3_64bits_reset(&sum);
-  FrameCodec codec;
   std::uint64_t offset = 0;
   for (std::uint32_t i = 0; i < data.samples.size(); ++i) {
     FrameEntry entry;
@@ -179,7 +211,7 @@ Result<void> write_frames(const std::string& path, const SpriteData& data,
         return misfit(path, i, s, *image);
       }
       premultiply(*image);
-      const auto bytes = codec.encode(*image);
+      const auto bytes = pictures.encode(*image);
       entry = {offset, static_cast<std::uint32_t>(bytes.size()), hash_bytes(bytes)};
       offset += entry.bytes;
       XXH3_64bits_update(&sum, bytes.data(), bytes.size());
@@ -195,13 +227,17 @@ Result<void> write_frames(const std::string& path, const SpriteData& data,
 }
 
 Result<void> write_pack(const std::string& path, const SpriteData& data, const FrameSource& frames,
-                        std::span<const PackExtra> extras) {
+                        std::span<const PackExtra> extras, PictureForm form) {
   auto file = FileWriter::create(path);
   if (!file) return file.error();
   const std::vector<OptionalSection> optional = optional_sections(data);
   const auto extra_count = static_cast<std::size_t>(
       std::count_if(extras.begin(), extras.end(), [](const auto& e) { return !e.bytes.empty(); }));
-  PackWriter pack(std::move(*file), 5 + data.modes.size() + optional.size() + extra_count);
+  const bool exact = form == PictureForm::Exact;
+  PackWriter pack(std::move(*file),
+                  5 + data.modes.size() + optional.size() + extra_count + (exact ? 0 : 1),
+                  exact ? 0 : 1);
+  PictureWriter pictures(form);
   if (auto done = pack.section("META", meta_bytes(data).data); !done) return done;
   if (auto done = pack.section("SAMP", sample_bytes(data).data); !done) return done;
   if (auto done = pack.section("TRAN", transition_bytes(data).data); !done) return done;
@@ -211,15 +247,23 @@ Result<void> write_pack(const std::string& path, const SpriteData& data, const F
   for (const OptionalSection& section : optional) {
     if (auto done = pack.section(section.name, section.bytes.data); !done) return done;
   }
-  // The index stands before the pictures but is known only after them: its place is kept free.
+  // Errors and index stand before the pictures but are known only after them: their places are
+  // kept free.
+  const std::size_t loss_section = pack.section_count();
+  if (!exact) {
+    if (auto done = pack.section("LOSS", pictures.loss_bytes().data); !done) return done;
+  }
   Bytes index;
   index.data.resize(data.samples.size() * kFrameBytes);
   const std::size_t index_section = pack.section_count();
   if (auto done = pack.section("FIDX", index.data); !done) return done;
   index.data.clear();
   if (auto done = pack.begin("FRAM"); !done) return done;
-  if (auto done = write_frames(path, data, frames, pack, index); !done) return done;
+  if (auto done = write_frames(path, data, frames, pictures, pack, index); !done) return done;
   if (auto done = pack.rewrite(index_section, index); !done) return done;
+  if (!exact) {
+    if (auto done = pack.rewrite(loss_section, pictures.loss_bytes()); !done) return done;
+  }
   for (const PackExtra& extra : extras) {
     if (extra.bytes.empty()) continue;
     if (auto done = pack.section(extra.name, extra.bytes); !done) return done;
@@ -229,11 +273,11 @@ Result<void> write_pack(const std::string& path, const SpriteData& data, const F
 
 }  // namespace
 
-Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end) {
+Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end, std::uint16_t minor) {
   Bytes out;
   out.data.assign(kMagic.begin(), kMagic.end());
   out.put(kPackMajor);
-  out.put(kPackMinor);
+  out.put(minor);
   out.put(static_cast<std::uint32_t>(sections.size()));
   out.put(end);
   out.pad_to(kHeaderBytes);
@@ -253,12 +297,12 @@ Bytes header_bytes(std::span<const SectionEntry> sections, std::uint64_t end) {
 }  // namespace detail
 
 Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames,
-                       std::span<const PackExtra> extras) {
+                       std::span<const PackExtra> extras, PictureForm form) {
   try {
     if (detail::Check bad = detail::check_sprite_data(data)) {
       return Error{bad->error, path + ": " + bad->issue.section + ": " + bad->issue.message};
     }
-    return detail::write_pack(path, data, frames, extras);
+    return detail::write_pack(path, data, frames, extras, form);
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, path + ": out of memory while writing"};
   }

@@ -49,8 +49,7 @@ struct Surface {
 };
 
 constexpr int kPageSide = 2048;
-constexpr int kMostTaps = 4;            // samples along a pixel's footprint
-constexpr std::size_t kTexelBytes = 8;  // four half floats
+constexpr int kMostTaps = 4;  // samples along a pixel's footprint
 
 enum class Kind { Nothing, Sprites, Shapes, Triangles, Puppets };
 
@@ -126,8 +125,7 @@ struct Renderer::Impl {
   explicit Impl(const RendererConfig& c, detail::gl::Device d)
       : config(c),
         device(std::move(d)),
-        atlas(std::min(detail::kPageSide, device.max_size), device.max_size, c.texture_budget,
-              detail::kTexelBytes) {}
+        atlas(std::min(detail::kPageSide, device.max_size), device.max_size, c.texture_budget) {}
   ~Impl();
 
   Result<void> set_up();
@@ -139,7 +137,10 @@ struct Renderer::Impl {
               int wanted_taps = 1);
   void use_surface(detail::Surface* surface);
   void drop_frame();
+  std::optional<detail::AtlasSlot> place(const TextureKey& key, int width, int height,
+                                         detail::PageForm form);
   std::optional<detail::AtlasSlot> store(const TextureKey& key, ImageView image, int side = 1);
+  std::optional<detail::AtlasSlot> store(const TextureKey& key, BlockView blocks);
   void push(std::initializer_list<float> values) {
     batch.insert(batch.end(), values.begin(), values.end());
   }
@@ -149,9 +150,10 @@ struct Renderer::Impl {
   void push_shadow(const SpriteDraw& sprite, const Fade& of, const Shadow& shadow);
   void push_picture(const detail::Picture& picture);
   /// The picture's place on a page; it is sent there if need be, of squares of `side` pixels one
-  /// texel each. Nothing if there is no picture.
+  /// texel each (blocks as they are). Nothing if there is no picture.
   std::optional<detail::AtlasSlot> find_or_store(const TextureKey& key, ImageView image,
-                                                 int side = 1);
+                                                 int side = 1, BlockView blocks = {});
+  bool takes_blocks() const noexcept { return config.blocks && device.block_format != 0; }
   /// Null if the driver refuses the variant.
   detail::Program* sprite_program(int taps, bool fading);
   Vec2 to_frame(Vec2 p) const noexcept {

@@ -537,6 +537,7 @@ Result<void> decode(const Sprite::Impl& impl, std::uint32_t sample, Picture& out
     if (impl.frames.empty() || s.kept == 0) {
       out.width = out.height = 0;
       out.rgba.clear();
+      if constexpr (requires { out.blocks; }) out.blocks.clear();
       return {};
     }
     const detail::FrameEntry& entry = impl.frames[sample];
@@ -560,6 +561,8 @@ Result<void> Sprite::decode_frame(std::uint32_t sample, Image& out) const {
   assert(sample < impl_->data.samples.size());
   return decode(*impl_, sample, out);
 }
+
+bool Sprite::has_blocks() const noexcept { return impl_->has_blocks; }
 
 std::size_t Sprite::picture_bytes(std::uint32_t sample) const noexcept {
   assert(sample < impl_->data.samples.size());

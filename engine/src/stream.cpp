@@ -63,6 +63,7 @@ struct FrameCache::Impl {
   Entries entries{};  ///< shown or wanted last: in front
   std::unordered_map<std::uint32_t, Entries::iterator> by_sample{};
   std::array<Shown, 2> shown{};  ///< the last two, the last one first
+  std::array<std::vector<std::uint8_t>, 2> shown_blocks{};  ///< the same of blocks()
   std::unordered_set<std::uint32_t> damaged{};
   struct Asked {
     bool is_guess = false;  ///< for later only
@@ -236,6 +237,31 @@ ImageView FrameCache::frame(std::uint32_t sample) noexcept {
   if (!is_good) ++m.stats.damaged;
   m.drop_oldest();
   return m.shown[0].sample == kNoSample ? ImageView() : ImageView(m.shown[0].image);
+}
+
+BlockView FrameCache::blocks(std::uint32_t sample) noexcept {
+  Impl& m = *impl_;
+  if (!m.sprite.has_blocks()) return {};
+  BlockView view;
+  try {
+    m.take_over();
+    const bool is_held = m.bring_to_front(sample, now());
+    if (is_held || m.decode_to_front(sample)) {
+      const detail::TrimmedImage& held = m.by_sample.find(sample)->second->image;
+      std::vector<std::uint8_t>& place = m.shown_blocks[1];
+      m.stats.bytes -= place.size();
+      place.clear();
+      place = held.blocks;
+      m.stats.bytes += place.size();
+      std::swap(m.shown_blocks[0], m.shown_blocks[1]);
+      if (!held.blocks.empty()) view = {m.shown_blocks[0].data(), held.width, held.height};
+      if (is_held && view.bytes != nullptr) ++m.stats.hits;
+    }
+  } catch (const std::bad_alloc&) {
+    // As if there were none.
+  }
+  m.drop_oldest();
+  return view;
 }
 
 void FrameCache::look_ahead(const Actor& actor) noexcept {

@@ -20,7 +20,8 @@ constexpr std::size_t kPerTransition = 8;
 constexpr std::size_t kPerEntry = 8;           // of a table: next, go
 constexpr std::size_t kPerAction = 20;         // and 4 for every deadline
 constexpr std::size_t kSectionCost = 32 + 64;  // entry of the table, gap before the section
-constexpr std::array<std::string_view, 6> kWhole = {"META", "EVNT", "BODY", "GRND", "PUPT", "PSET"};
+constexpr std::array<std::string_view, 7> kWhole = {"META", "EVNT", "BODY", "GRND",
+                                                    "PUPT", "PSET", "LOSS"};
 constexpr std::array<std::string_view, 3> kExtras = {"GRND", "PUPT", "PSET"};
 
 constexpr double kGoalSeconds = 825;  // 300 goals, as `steer --bench` sets a seed
@@ -94,13 +95,16 @@ Result<BudgetOutcome> fit_pack(const std::string& from, const std::string& to,
     if (!bytes) return bytes.error();
     extras.push_back({std::string(name), std::move(*bytes)});
   }
+  const PictureForm form = sprite->has_blocks() ? PictureForm::Blocks : PictureForm::Exact;
   const FrameSource pictures = [&](std::uint32_t sample) -> Result<Image> {
+    if (config.pictures) return config.pictures(choice->from[sample]);
     Image image;
     if (auto ok = sprite->decode_frame(choice->from[sample], image); !ok) return ok.error();
     unpremultiply(image);
     return image;
   };
-  if (auto saved = save_pack(to, choice->data, pictures, extras); !saved) return saved.error();
+  if (auto saved = save_pack(to, choice->data, pictures, extras, form); !saved)
+    return saved.error();
   const auto smaller = load_pack(to);
   if (!smaller) return smaller.error();
   const auto after = measure(*smaller, to, config.seed);

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <string>
 
+#include "vsprite/pack.h"
 #include "vsprite/result.h"
 
 namespace vsprite {
@@ -21,6 +22,7 @@ struct BudgetConfig {
   double bytes = 10e6;     ///< of the whole file at most, > 0
   std::uint64_t seed = 1;  ///< of the commands by which samples are judged
   int jobs = 0;            ///< threads, 0 = all; the result does not depend on it
+  FrameSource pictures{};  ///< of the whole pack's samples; none: the pack's own
 };
 
 /// Of the pack before and after: what `--budget` is judged by.

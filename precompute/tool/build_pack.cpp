@@ -9,6 +9,7 @@
 
 #include "control/actions.h"
 #include "tool/budget.h"
+#include "tool/report.h"
 #include "tool/stages.h"
 #include "tool/views_file.h"
 #include "vsprite/ground.h"
@@ -102,6 +103,17 @@ std::vector<BodyBox> body_boxes(const SpriteData& data, std::span<const OpaqueBo
   return bodies;
 }
 
+// What the cast says of a tag's box stands in the place of what was measured.
+void set_bodies(const Json& cast, SpriteData& data) {
+  for (const Json& clip : cast.is_array() ? cast : Json::array()) {
+    if (!clip.contains("body")) continue;
+    const auto side = [&](std::size_t k) { return clip["body"][k].get<float>(); };
+    for (BodyBox& box : data.bodies)
+      if (data.tags[box.tag] == clip.value("tag", ""))
+        box = {box.tag, side(0), side(1), side(2), side(3)};
+  }
+}
+
 // What the cast says happens at a film frame: at the sample that is shown then, and its mirror.
 void add_events(const Json& cast, const std::vector<SampleRow>& rows, SpriteData& data) {
   for (const Json& clip : cast.is_array() ? cast : Json::array()) {
@@ -180,7 +192,8 @@ Result<std::vector<std::uint8_t>> floor_bytes(const StageRun& run) {
 }
 
 // From the pack of all samples at `whole` to the one that is wanted.
-Result<void> keep_budget(const StageRun& run, const std::string& whole, Json& result) {
+Result<void> keep_budget(const StageRun& run, const std::string& whole, const FrameSource& pictures,
+                         Json& result) {
   const double budget = run.settings.budget * 1e6;
   std::error_code error;
   if (static_cast<double>(fs::file_size(whole, error)) <= budget) {
@@ -188,8 +201,11 @@ Result<void> keep_budget(const StageRun& run, const std::string& whole, Json& re
     if (!error) return {};
     return Error{ErrorCode::CannotCreate, run.pack + ": " + error.message()};
   }
-  const auto fitted = fit_pack(
-      whole, run.pack, {.bytes = budget, .seed = run.settings.seed, .jobs = run.settings.jobs});
+  const auto fitted = fit_pack(whole, run.pack,
+                               {.bytes = budget,
+                                .seed = run.settings.seed,
+                                .jobs = run.settings.jobs,
+                                .pictures = pictures});
   fs::remove(whole, error);
   if (!fitted)
     return Error{fitted.error().code,
@@ -207,6 +223,9 @@ Result<Json> measure_pack(const StageRun& run, Json result) {
   if (!sprite) return sprite.error();
   std::error_code error;
   result["pack_bytes"] = fs::file_size(run.pack, error);
+  const auto info = read_pack_info(run.pack);
+  if (!info) return info.error();
+  if (info->loss) result["loss"] = loss_json(*info->loss);
   result["body_length"] = sprite->data().body_length;
   result["directions"] = Json::array();
   for (const DirectionReport& report : measure_directions(*sprite, 0, run.settings.seed))
@@ -298,8 +317,11 @@ Result<Json> write_pack(StageRun& run) {
   auto data = make_sprite_data(*film, *rows, *file, *values, boxes);
   if (!data) return data.error();
   if (auto added = add_actions(run, *file, *data); !added) return added.error();
-  if (const Json* made = run.project.record("segment"))
-    add_events(made->value("result", Json::object()).value("cast", Json()), *rows, *data);
+  if (const Json* made = run.project.record("segment")) {
+    const Json cast = made->value("result", Json::object()).value("cast", Json());
+    add_events(cast, *rows, *data);
+    set_bodies(cast, *data);
+  }
 
   PictureReader pictures(run.project, *rows);
   const double count = static_cast<double>(rows->size());
@@ -315,11 +337,13 @@ Result<Json> write_pack(StageRun& run) {
                               {"PUPT", std::move(puppets->puppets)},
                               {"PSET", std::move(puppets->sets)}};
   const bool fits = run.settings.budget == 0;
+  const PictureForm form =
+      run.settings.pictures == "gpu" ? PictureForm::Blocks : PictureForm::Exact;
   const std::string path = fits ? run.pack : run.pack + ".tmp.whole";
-  if (auto saved = save_pack(path, *data, source, extras); !saved) return saved.error();
+  if (auto saved = save_pack(path, *data, source, extras, form); !saved) return saved.error();
 
   Json result = Json::object();
-  if (auto kept = fits ? Result<void>() : keep_budget(run, path, result); !kept)
+  if (auto kept = fits ? Result<void>() : keep_budget(run, path, source, result); !kept)
     return kept.error();
   return measure_pack(run, std::move(result));
 }

@@ -91,6 +91,13 @@ std::vector<std::string> train_lines(const Json& r) {
   return lines;
 }
 
+std::string loss_text(const Json& loss) {
+  const auto ratio = [&](const char* key) {
+    return loss[key].is_number() ? fixed_text(loss[key].get<double>(), 1) + " dB" : "exact";
+  };
+  return "colour " + ratio("colour_psnr_db") + ", alpha " + ratio("alpha_psnr_db") + " PSNR";
+}
+
 /// What a smaller pack costs.
 std::string budget_text(const Json& r) {
   const Json whole = r.value("whole", Json::object()), fitted = r.value("fitted", Json::object());
@@ -170,6 +177,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
   } else if (stage.name == "pack") {
     lines.push_back(bytes_text(static_cast<std::uint64_t>(count_of(r, "pack_bytes"))));
     if (r.contains("budget")) lines.push_back(budget_text(r["budget"]));
+    if (r.contains("loss")) lines.push_back("pictures for the GPU: " + loss_text(r["loss"]));
   }
   return lines;
 }
@@ -309,6 +317,11 @@ std::string puppet_line(const Puppet& puppet) {
                               : ", " + std::to_string(puppet.sets.size()) + " sets of views\n");
 }
 
+Json loss_json(const PackLoss& loss) {
+  const auto ratio = [](double db) { return std::isfinite(db) ? Json(db) : Json(); };
+  return {{"colour_psnr_db", ratio(loss.colour)}, {"alpha_psnr_db", ratio(loss.alpha)}};
+}
+
 Json info_json(const Sprite& sprite, const PackInfo& info) {
   const SpriteData& data = sprite.data();
   Json tags = Json::array(), modes = Json::array(), sections = Json::array();
@@ -335,7 +348,12 @@ Json info_json(const Sprite& sprite, const PackInfo& info) {
     for (const auto& [name, value] : named.items()) out[name] = value;
   }
   out["bytes"] = info.bytes;
+  out["bodies"] = Json::array();
+  for (const BodyBox& b : data.bodies)
+    out["bodies"].push_back(
+        {{"tag", data.tags[b.tag]}, {"box", {b.left, b.top, b.right, b.bottom}}});
   out["sections"] = sections;
+  if (info.loss) out["loss"] = loss_json(*info.loss);
   return out;
 }
 
@@ -376,6 +394,14 @@ std::string info_text(const std::string& path, const Sprite& sprite, const PackI
     out += "    serves " +
            (served.empty() ? std::string("no direction: it plays by itself") : served) + "\n";
   }
+  for (const BodyBox& b : data.bodies) {
+    char text[400];
+    std::snprintf(text, sizeof text, "  body of %s: [%.4g, %.4g, %.4g, %.4g] px from the anchor\n",
+                  data.tags[b.tag].empty() ? "all" : data.tags[b.tag].c_str(), double{b.left},
+                  double{b.top}, double{b.right}, double{b.bottom});
+    out += text;
+  }
+  if (info.loss) out += "  pictures for the GPU: " + loss_text(loss_json(*info.loss)) + "\n";
   for (const PackSection& section : info.sections)
     out += "  section " + section.name + "  " + bytes_text(section.bytes) + "\n";
   return out;

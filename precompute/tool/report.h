@@ -25,6 +25,8 @@ Json build_json(const std::vector<StageOutcome>& outcomes);
 
 std::string info_text(const std::string& path, const Sprite& sprite, const PackInfo& info);
 Json info_json(const Sprite& sprite, const PackInfo& info);
+/// dB; null where nothing was lost.
+Json loss_json(const PackLoss& loss);
 Json puppet_json(const Puppet& puppet);
 /// One line: name, control points, faces, pictures, kernel.
 std::string puppet_line(const Puppet& puppet);

@@ -289,6 +289,9 @@ void add_stage_options(Row& t) {
       "budget", "MB", &Settings::budget, 0, 8000, false,
       "largest pack: frames are left out in the order in which control loses least; 0 = all stay",
       " pack build play ");
+  t.text("pictures", "FORM", &Settings::pictures,
+         "of the pack: exact, or gpu: lossy, half the bytes, drawn by a graphics card as they lie",
+         " pack build play ", "exact|gpu");
   t.real("change-rate", "RATE", &Settings::change_rate, 0, 10, false,
          "mode responsive: changes of command to expect, a second; 0 = expect none", kSolve);
   t.real("speed-weight", "RAD", &Settings::speed_weight, 0, 100, false,

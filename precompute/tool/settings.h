@@ -78,6 +78,7 @@ struct Settings {
   double exit_angle = 25;
   double action_tau = 0.05;  ///< price of a tick on the way to a tag
   double budget = 0;         ///< MB of the pack; 0: all samples
+  std::string pictures = "exact";
 
   // Looking before building.
   int preview = 0;  ///< frames on the contact sheet; 0: none is asked for

@@ -253,13 +253,17 @@ Result<StageKey> pack_key(StageRun& run) {
   if (!present) return present.error();
   const Json* made = run.project.record("segment");
   const Json cast = made ? made->value("result", Json::object()).value("cast", Json()) : Json();
-  Json events = Json::array();
-  for (const Json& clip : cast.is_array() ? cast : Json::array())
+  Json events = Json::array(), bodies = Json::array();
+  for (const Json& clip : cast.is_array() ? cast : Json::array()) {
     if (clip.contains("events")) events.push_back(clip["events"]);
+    if (clip.contains("body")) bodies.push_back({clip["tag"], clip["body"]});
+  }
   const Json settings = {{"events", events},
+                         {"bodies", bodies},
                          {"seed", run.settings.seed},
                          {"action-tau", run.settings.action_tau},
-                         {"budget", run.settings.budget}};
+                         {"budget", run.settings.budget},
+                         {"pictures", run.settings.pictures}};
   std::vector<const char*> inputs{"sprites", "transitions.bin", "values.bin"};
   for (const char* name : {"puppets.bin", "puppet_sets.bin"})
     if (std::filesystem::exists(run.project.path(name))) inputs.push_back(name);

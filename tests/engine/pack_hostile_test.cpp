@@ -4,6 +4,7 @@
 // One hand-made hostile pack for every way in which a pack can lie with all its sums in order.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -383,6 +384,35 @@ std::vector<Hostile> acting_packs() {
   };
 }
 
+// The tiny sprite with pictures for the GPU.
+std::vector<Hostile> block_packs() {
+  const testing::TempFolder folder;
+  const SpriteData data = testing::tiny_sprite_data();
+  const std::string path = folder.file("tiny.vsp");
+  const auto picture = [&](std::uint32_t i) -> Result<Image> {
+    return testing::tiny_picture(data, i);
+  };
+  EXPECT_TRUE(save_pack(path, data, picture, {}, PictureForm::Blocks));
+  const ByteVector whole = testing::read_bytes(path);
+  const auto damaged = [&](const EditParts& edit) { return damage_section(edit, whole); };
+  const auto picture_byte = [&](std::size_t at, std::uint8_t value) {
+    return damaged([=](PackParts& p) {  // of the first picture
+      ByteVector& frames = p["FRAM"].bytes;
+      frames[at] = value;
+      const auto size = get_at<std::uint32_t>(p["FIDX"].bytes, frame_at(1) + 8);
+      put_at(p["FIDX"].bytes, frame_at(1) + 16, detail::hash_bytes({frames.data(), size}));
+    });
+  };
+  return {
+      {"loss", "need 16 bytes", damaged([](auto& p) { p["LOSS"].bytes.pop_back(); })},
+      {"loss", "from 0 to 65025", damaged(set("LOSS", 0, -1.0))},
+      {"loss", "from 0 to 65025", damaged(set("LOSS", 8, std::nan("")))},
+      {"section-twice", "more than once", damaged([](auto& p) { p.parts.push_back(p["LOSS"]); })},
+      {"frame-decode", "not a picture", picture_byte(0, 3), true},
+      {"frame-decode", "not a picture", picture_byte(1, 0xFF), true},
+  };
+}
+
 void expect_refused(const Hostile& hostile) {
   SCOPED_TRACE(std::string(hostile.code) + ": " + hostile.message);
   const auto issues = testing::verify_bytes(hostile.bytes);
@@ -405,7 +435,7 @@ void expect_refused(const Hostile& hostile) {
 
 using HostileList = std::vector<Hostile> (*)();
 constexpr HostileList kLists[] = {header_packs, meta_packs,    sample_packs, transition_packs,
-                                  mode_packs,   picture_packs, acting_packs};
+                                  mode_packs,   picture_packs, acting_packs, block_packs};
 
 class HostilePack : public ::testing::TestWithParam<HostileList> {};
 TEST_P(HostilePack, IsRefusedWithItsOwnCode) {

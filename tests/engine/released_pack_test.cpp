@@ -32,12 +32,13 @@ SpriteData small_data() {
   return data;
 }
 
-void write_missing(const std::string& path) {
+void write_missing(const std::string& path, PictureForm form) {
   if (std::getenv("VSPRITE_UPDATE_GOLDEN") == nullptr || std::filesystem::exists(path)) return;
   const SpriteData data = small_data();
-  const auto saved = save_pack(path, data, [&](std::uint32_t sample) {
-    return Result<Image>(testing::tiny_picture(data, sample));
-  });
+  const auto saved = save_pack(
+      path, data,
+      [&](std::uint32_t sample) { return Result<Image>(testing::tiny_picture(data, sample)); }, {},
+      form);
   ASSERT_TRUE(saved) << saved.error().message;
 }
 
@@ -66,7 +67,7 @@ std::uint64_t hash_of_pictures(const Sprite& sprite) {
 }
 
 TEST(ReleasedPack, Version1_0IsReadForEver) {
-  write_missing(released("1.0"));
+  write_missing(released("1.0"), PictureForm::Exact);
   EXPECT_LE(std::filesystem::file_size(released("1.0")), 65536u);
   const auto issues = verify_pack(released("1.0"));
   ASSERT_TRUE(issues) << issues.error().message;
@@ -80,8 +81,28 @@ TEST(ReleasedPack, Version1_0IsReadForEver) {
   EXPECT_EQ(hash_of_pictures(*sprite), 17269800096067365075u);
 }
 
-TEST(ReleasedPack, EveryTruncationAndEveryFlippedBitIsDetected) {
-  testing::ByteVector bytes = testing::read_bytes(released("1.0"));
+TEST(ReleasedPack, Version1_1IsReadForEver) {
+  write_missing(released("1.1"), PictureForm::Blocks);
+  EXPECT_LE(std::filesystem::file_size(released("1.1")), 65536u);
+  const auto issues = verify_pack(released("1.1"));
+  ASSERT_TRUE(issues) << issues.error().message;
+  EXPECT_TRUE(issues->empty());
+  const auto info = read_pack_info(released("1.1"));
+  ASSERT_TRUE(info && info->loss);
+  EXPECT_EQ(info->minor, 1);
+  EXPECT_NEAR(info->loss->colour, 36.8, 0.05);
+  EXPECT_NEAR(info->loss->alpha, 44.9, 0.05);
+  const auto sprite = load_pack(released("1.1"));
+  ASSERT_TRUE(sprite) << sprite.error().message;
+  EXPECT_TRUE(sprite->has_blocks());
+  EXPECT_EQ(hash_of_states(*sprite), 6341516569115839497u);
+  EXPECT_EQ(hash_of_pictures(*sprite), 13490897127314643463u);
+}
+
+class ReleasedPackBytes : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, ReleasedPackBytes, ::testing::Values("1.0", "1.1"));
+TEST_P(ReleasedPackBytes, EveryTruncationAndEveryFlippedBitIsDetected) {
+  testing::ByteVector bytes = testing::read_bytes(released(GetParam()));
   ASSERT_FALSE(bytes.empty());
   for (std::size_t size = 0; size < bytes.size(); ++size)
     ASSERT_FALSE(testing::verify_bytes(std::span(bytes).first(size), 1).empty()) << size;

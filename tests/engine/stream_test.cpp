@@ -47,6 +47,31 @@ TEST_F(FrameCacheTest, ServesThePremultipliedPictureAndDecodesItOnce) {
   EXPECT_EQ(cache.stats().hits, 1u);
 }
 
+TEST_F(FrameCacheTest, HandsOutTheBlocksOfAPackForTheGpuAndItsPictures) {
+  const testing::TempFolder folder;
+  const SpriteData data = testing::tiny_sprite_data();
+  const auto picture = [&](std::uint32_t sample) -> Result<Image> {
+    return testing::tiny_picture(data, sample);
+  };
+  ASSERT_TRUE(save_pack(folder.file("a.vsp"), data, picture, {}, PictureForm::Blocks));
+  const Sprite sprite = *load_pack(folder.file("a.vsp"));
+  FrameCache cache(sprite);
+  Image due = testing::tiny_picture(data, 7);
+  premultiply(due);
+  const auto blocks = detail::encode_blocks(due);
+  const BlockView first = cache.blocks(7), second = cache.blocks(8);
+  ASSERT_NE(second.bytes, nullptr);
+  ASSERT_EQ(first.width, due.width);
+  ASSERT_EQ(static_cast<std::size_t>(16 * first.columns() * first.rows()), blocks.size());
+  EXPECT_TRUE(std::equal(blocks.begin(), blocks.end(), first.bytes));  // still valid
+  detail::decode_blocks(blocks, due.width, due.height, due);
+  EXPECT_EQ(copy(cache.frame(7)), due.rgba);
+  EXPECT_EQ(cache.stats().misses, 2u);
+  EXPECT_EQ(cache.stats().hits, 1u);
+  const Sprite exact = load();
+  EXPECT_EQ(FrameCache(exact).blocks(7).bytes, nullptr);
+}
+
 TEST_F(FrameCacheTest, DropsTheLeastRecentlyUsedAndKeepsToItsBudget) {
   const Sprite sprite = load();
   const std::size_t budget = 10'000;  // five pictures

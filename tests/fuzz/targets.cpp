@@ -66,6 +66,11 @@ void fuzz_frame(std::span<const std::uint8_t> bytes) {
     if (!codec.decode(width, height, target == 0 ? first : image)) return;
     require(target == 0 || image.rgba == first.rgba);
   }
+  detail::TrimmedImage trimmed;
+  std::copy(bytes.begin() + 2, bytes.end(), codec.input(bytes.size() - 2).begin());
+  require(codec.decode(width, height, trimmed));
+  detail::expand(trimmed, image);
+  require(image.rgba == first.rgba);
   const auto again = codec.encode(first);
   const std::vector<std::uint8_t> copy(again.begin(), again.end());
   std::copy(copy.begin(), copy.end(), codec.input(copy.size()).begin());

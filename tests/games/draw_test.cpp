@@ -263,6 +263,57 @@ class DrawActors : public testing::GlTest {
   std::optional<FrameCache> frames_;
 };
 
+// Blocks that the GPU decodes against the same decoded here: interpolation differs by a step of
+// eight bits or so between drivers.
+TEST_F(DrawActors, APackForTheGpuIsDrawnFromItsBlocks) {
+  const SpriteData data = testing::tiny_sprite_data();
+  const auto picture = [&](std::uint32_t i) -> Result<Image> {
+    return testing::tiny_picture(data, i);
+  };
+  ASSERT_TRUE(save_pack(folder_.file("gpu.vsp"), data, picture, {}, PictureForm::Blocks));
+  sprite_.emplace(*load_pack(folder_.file("gpu.vsp")));
+  if (!renderer().takes_blocks()) GTEST_SKIP() << "no S3TC here: " << renderer().device();
+  std::vector<Actor> actors;
+  for (int k = 0; k < 8; ++k) {
+    actors.push_back(make_actor(
+        *sprite_, {12.3f + 9 * static_cast<float>(k), 20.0f + 5.7f * static_cast<float>(k)}));
+    actors.back().sample = testing::tiny_sample(k, 3);
+  }
+  std::array<Image, 2> seen;
+  std::array<std::size_t, 2> bytes{};
+  for (const bool blocks : {false, true}) {
+    open({.blocks = blocks});
+    frames_.emplace(*sprite_, std::size_t{1} << 20);
+    std::vector<ActorDraw> all;
+    for (const Actor& actor : actors) all.push_back(entry(actor));
+    seen[blocks] = shot(all);
+    bytes[blocks] = renderer().stats().texture_bytes;
+    EXPECT_EQ(renderer().stats().uploads, 8u);
+    EXPECT_EQ(renderer().stats().batches, 1u);
+  }
+  EXPECT_EQ(bytes[1] * 8, bytes[0]);
+  EXPECT_LE(testing::largest_difference(seen[0], seen[1]), 4);
+  EXPECT_NE(color_at(seen[1], 40, 38), 0xffffffu);
+}
+
+TEST_F(DrawActors, ThePagesOfBothFormsShareTheBudget) {
+  const Image picture = noise_picture(300, 300, 1);
+  std::vector<std::uint8_t> blocks(16 * 76 * 76);
+  if (!renderer().takes_blocks()) GTEST_SKIP() << "no S3TC here: " << renderer().device();
+  open({.texture_budget = std::size_t{64} << 20});
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    renderer().begin_frame(320, 240);
+    const bool form = i / 50 % 2 != 0;
+    renderer().draw_sprite({.image = form ? ImageView() : ImageView(picture),
+                            .key = {1, i},
+                            .blocks = form ? BlockView{blocks.data(), 300, 300} : BlockView{}});
+    renderer().end_frame();
+    ASSERT_LE(renderer().stats().texture_bytes, std::size_t{64} << 20);
+    ASSERT_TRUE(renderer().is_cached({1, i}));
+  }
+  EXPECT_GT(renderer().stats().evictions, 2u);
+}
+
 TEST_F(DrawActors, TheLowerOneStandsInFrontAndEqualOnesKeepTheirOrder) {
   Actor red = make_actor(*sprite_, {40, 30}), green = red;
   red.sample = testing::tiny_sample(0, 3);

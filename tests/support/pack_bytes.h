@@ -45,6 +45,7 @@ struct PackParts {
     ByteVector bytes;
   };
   std::vector<Part> parts;
+  std::uint16_t minor = 0;
 
   Part& operator[](const std::string& name) {
     return *std::find_if(parts.begin(), parts.end(), [&](const Part& p) { return p.name == name; });
@@ -52,6 +53,7 @@ struct PackParts {
 
   static PackParts split(const ByteVector& bytes) {
     PackParts out;
+    out.minor = get_at<std::uint16_t>(bytes, 10);
     const std::size_t count = get_at<std::uint32_t>(bytes, 12);
     for (std::size_t s = 0; s < count; ++s) {
       const std::size_t at = detail::kHeaderBytes + s * detail::kEntryBytes;
@@ -79,7 +81,7 @@ struct PackParts {
     }
     std::copy(detail::kMagic.begin(), detail::kMagic.end(), out.begin());
     put_at(out, 8, kPackMajor);
-    put_at(out, 10, kPackMinor);
+    put_at(out, 10, minor);
     put_at(out, 12, static_cast<std::uint32_t>(parts.size()));
     put_at(out, 16, std::uint64_t{out.size()});
     seal_header(out);

@@ -52,6 +52,7 @@ using GlLoader = void* (*)(const char* name);
 
 struct RendererConfig {
   std::size_t texture_budget = std::size_t{128} << 20;  ///< bytes of cached pictures on the GPU
+  bool blocks = true;   ///< send GPU-ready pictures as they are where the driver takes them
   bool dither = false;  ///< +-half a step of noise when encoding: no bands in dark gradients
 };
 
@@ -82,6 +83,9 @@ class Renderer {
   /// where is_cached(shadow_key(sprite.key, shadow)); tint and fog do not count.
   void draw_shadow(const SpriteDraw& sprite, const Shadow& shadow);
   bool is_cached(const TextureKey& key) const noexcept;
+  /// True if SpriteDraw::blocks can be drawn: the driver samples BC3 as sRGB. draw_actor then sends
+  /// the pictures of a GPU-ready pack as they are, an eighth of what the half floats take.
+  bool takes_blocks() const noexcept;
   /// Drops the cached pictures of one sprite, e.g. after its pack was loaded anew.
   void forget(std::uint64_t sprite);
 

@@ -45,6 +45,19 @@ struct ImageView {
   const std::uint8_t* pixel(int x, int y) const noexcept { return rgba + y * stride + 4 * x; }
 };
 
+/// Borrows a GPU-ready picture: BC3 blocks (S3TC's DXT5) of 16 bytes, `columns()` by `rows()` of
+/// them. The picture's first texel is the second of the second row of the first block; what lies
+/// about the picture is clear. Colours are linear premultiplied light, encoded as sRGB: sample them
+/// as an sRGB texture (GL_COMPRESSED_SRGB_ALPHA_S3TC_DXT5_EXT) and draw premultiplied.
+struct BlockView {
+  const std::uint8_t* bytes = nullptr;
+  int width = 0;  ///< px of the picture itself
+  int height = 0;
+
+  int columns() const noexcept { return (width + 5) / 4; }
+  int rows() const noexcept { return (height + 5) / 4; }
+};
+
 /// Encoded 0..255 -> linear 0..65535.
 std::uint16_t linear_from_srgb(std::uint8_t encoded) noexcept;
 /// Linear 0..65535 -> the nearest encoded 0..255.

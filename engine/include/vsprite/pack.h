@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,7 +23,7 @@
 namespace vsprite {
 
 inline constexpr std::uint16_t kPackMajor = 1;
-inline constexpr std::uint16_t kPackMinor = 0;
+inline constexpr std::uint16_t kPackMinor = 1;  ///< 1: GPU-ready pictures; packs without stay 1.0
 
 /// Reads header and tables and checks every count before memory is taken, every index, order and
 /// range. Pictures stay in the file, which remains open, and are checked when decoded. The file is
@@ -49,6 +50,12 @@ Result<Sprite> load_pack(PackReader reader);
 /// Hands out the straight-alpha picture of a kept sample; called once each, in ascending order.
 using FrameSource = std::function<Result<Image>(std::uint32_t sample)>;
 
+/// How a pack holds its pictures.
+enum class PictureForm : std::uint8_t {
+  Exact,  ///< lossless, a fifth to a quarter of the RGBA bytes
+  Blocks  ///< lossy, an eighth: BC3 blocks that a GPU samples as they are (BlockView)
+};
+
 /// A section that is read apart from the sprite: a floor (encode_ground), puppets (encode_puppets),
 /// or one of a game's own.
 struct PackExtra {
@@ -58,11 +65,12 @@ struct PackExtra {
 
 /// Writes a pack: `path` appears complete and synced, or not at all. The same data give the same
 /// bytes. One picture is in memory at a time. `extras` follow the pictures as they are; those
-/// without bytes are left out. Temporaries that killed writers of the same path left behind are
-/// removed. Errors: CannotCreate, CannotWrite, CorruptData (`data` contradicts itself),
-/// OutOfMemory, and whatever `frames` returns.
+/// without bytes are left out. Exact pictures make a pack of version 1.0. Temporaries that killed
+/// writers of the same path left behind are removed. Errors: CannotCreate, CannotWrite, CorruptData
+/// (`data` contradicts itself), OutOfMemory, and whatever `frames` returns.
 Result<void> save_pack(const std::string& path, const SpriteData& data, const FrameSource& frames,
-                       std::span<const PackExtra> extras = {});
+                       std::span<const PackExtra> extras = {},
+                       PictureForm form = PictureForm::Exact);
 /// The bytes of the first section of that name; empty: there is none. Errors: those of load_pack
 /// that concern header and section.
 Result<std::vector<std::uint8_t>> load_extra(const std::string& path, std::string_view name);
@@ -88,10 +96,17 @@ struct PackSection {
   std::uint64_t offset = 0;
   std::uint64_t bytes = 0;
 };
+/// How far the pictures are from those that were written, as peak signal-to-noise ratios over all
+/// pixels that are not clear, dB; infinite where nothing was lost.
+struct PackLoss {
+  double colour = 0;  ///< premultiplied red, green and blue
+  double alpha = 0;
+};
 struct PackInfo {
   std::uint16_t major = 0, minor = 0;
   std::uint64_t bytes = 0;
   std::vector<PackSection> sections;
+  std::optional<PackLoss> loss;  ///< of a pack of PictureForm::Blocks
 };
 /// Errors as load_pack.
 Result<PackInfo> read_pack_info(const std::string& path);

@@ -59,6 +59,7 @@ struct Fade {
   TextureKey key{};
   Vec2 anchor{};    ///< px of this image
   float share = 0;  ///< of this picture, 0: not drawn at all, 1: alone
+  BlockView blocks{};  ///< instead of the image, where Renderer::takes_blocks
 };
 
 /// One picture to draw. The anchor comes to lie at `position`, exactly, also between pixels.
@@ -75,6 +76,7 @@ struct SpriteDraw {
   Color fog{};           ///< colour of the water or air in between (its alpha is not used) ...
   float fog_amount = 0;  ///< ... 0 none, 1 a silhouette in that colour
   Fade fade{};           ///< the picture shown before
+  BlockView blocks{};    ///< instead of the image, where Renderer::takes_blocks; has no shadow
 };
 
 /// A soft shadow: the picture's silhouette on the ground, blurred. The anchor stays where it is, so

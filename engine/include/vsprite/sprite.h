@@ -162,6 +162,9 @@ class Sprite {
   /// N.
   Result<void> decode_frame(std::uint32_t sample, Image& out) const;
 
+  /// How the pack holds the pictures: FrameCache::blocks hands out those of a GPU-ready one.
+  bool has_blocks() const noexcept;
+
   /// Bytes of that picture in the pack, compressed; 0 where it is empty. Pre: sample < N.
   std::size_t picture_bytes(std::uint32_t sample) const noexcept;
 
