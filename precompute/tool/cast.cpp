@@ -254,6 +254,7 @@ Json member_json(const Member& member, std::size_t index, Rate rate) {
                 {"color", member.matching.gain}};
   entry["fps"] = {frames_a_second(member.rate), frames_a_second(rate)};
   if (member.clip->velocity) entry["velocity"] = *member.clip->velocity;
+  if (member.clip->body) entry["body"] = *member.clip->body;
   if (!member.clip->events.empty()) {
     entry["range"] = {member.clip->first, member.clip->last};
     entry["events"] = events_json(*member.clip);
@@ -312,6 +313,7 @@ Result<StageKey> cast_key(StageRun& run) {
                   {"key", clip.key},   {"subject", clip.subject},           {"match", clip.match}};
     if (clip.mirror) entry["mirror"] = *clip.mirror;
     if (clip.velocity) entry["velocity"] = *clip.velocity;
+    if (clip.body) entry["body"] = *clip.body;
     if (!clip.matte.empty()) entry["matte"] = true;
     const Settings own = clip_settings(run.settings, clip);
     if (is_picture_source(clip.path)) entry["fps"] = own.fps;

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostClips = 1000, kLongestTag = 64, kMostEvents = 100000;
-constexpr double kFastest = 1e6;
+constexpr double kFastest = 1e6, kFarthest = 1e5;
 
 bool fits_tag(const std::string& tag) {
   return tag.size() <= kLongestTag && std::all_of(tag.begin(), tag.end(), [](unsigned char c) {
@@ -68,14 +68,15 @@ class Table {
     else
       due(*node, name, "a number from " + number_text(low) + " to " + number_text(high));
   }
-  /// Two numbers, `low` <= each <= `high`; false where there are none.
-  bool pair(const char* name, double low, double high, bool whole, const std::string& what,
-            std::array<double, 2>& values) {
+  /// N numbers, `low` <= each <= `high`; false where there are none.
+  template <std::size_t N>
+  bool numbers(const char* name, double low, double high, bool whole, const std::string& what,
+               std::array<double, N>& values) {
     const toml::node* node = table_.get(name);
     if (!node) return false;
     const toml::array* array = node->as_array();
-    bool fits = array && array->size() == 2;
-    for (std::size_t k = 0; fits && k < 2; ++k) {
+    bool fits = array && array->size() == N;
+    for (std::size_t k = 0; fits && k < N; ++k) {
       const auto found = array->get(k)->value<double>();
       fits = found && *found >= low && *found <= high && (!whole || std::floor(*found) == *found);
       if (fits) values[k] = *found;
@@ -146,12 +147,21 @@ CastClip read_clip(Table& table, const fs::path& folder, bool match) {
   bool mirror = false;
   if (table.flag("mirror", mirror)) clip.mirror = mirror;
   std::array<double, 2> pair{};
-  if (table.pair("velocity", -kFastest, kFastest, false,
-                 "two numbers, px/s to the right and down, such as [140, 0]", pair))
+  if (table.numbers("velocity", -kFastest, kFastest, false,
+                    "two numbers, px/s to the right and down, such as [140, 0]", pair))
     clip.velocity = pair;
+  std::array<double, 4> body{};
+  constexpr const char* kBody =
+      "left, top, right and bottom, px from the anchor, such as [-18, -60, 18, 0],";
+  if (table.numbers("body", -kFarthest, kFarthest, false, kBody, body)) {
+    clip.body = body;
+    if (body[0] > body[2] || body[1] > body[3])
+      table.fail("body",
+                 "body: its right end lies left of its left one, or its bottom above its top");
+  }
   constexpr const char* kFrames =
       "the first and the last film frame, whole numbers from 0 upwards, such as [12, 107]";
-  if (table.pair("frames", 0, 1e9, true, kFrames, pair)) {
+  if (table.numbers("frames", 0, 1e9, true, kFrames, pair)) {
     clip.first = static_cast<int>(pair[0]), clip.last = static_cast<int>(pair[1]);
     if (clip.last < clip.first)
       table.fail("frames", "frames: the last, " + std::to_string(clip.last) +
@@ -200,9 +210,13 @@ Result<std::vector<CastClip>> parse_cast(const std::string& text, const std::str
   std::vector<CastClip> clips;
   for (const toml::node& node : *list) {
     Table table(*node.as_table(), path,
-                {"file", "frames", "tag", "key", "subject", "mirror", "velocity", "match", "matte",
-                 "fps", "events"});
+                {"file", "frames", "tag", "key", "subject", "mirror", "velocity", "body", "match",
+                 "matte", "fps", "events"});
     clips.push_back(read_clip(table, fs::path(path).parent_path(), match));
+    const CastClip& last = clips.back();
+    for (const CastClip& clip : clips)
+      if (last.body && clip.body && clip.tag == last.tag && *clip.body != *last.body)
+        table.fail("body", "body: another clip of the tag `" + last.tag + "` has another one");
     if (!table.problem().empty()) return Error{ErrorCode::BadContent, table.problem()};
     std::error_code error;
     for (const std::string& file : {clips.back().path, clips.back().matte})

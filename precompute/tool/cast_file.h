@@ -15,8 +15,10 @@
 //     tag = "walk"
 //     key = "#20c040"           # its own background, as --key says it
 //     mirror = true             # also the other way round
-//     velocity = [140, 0]       # of a subject that walks in place: px/s of its film, x right, y
-//     down events = [{ frame = 31, name = "step" }]   # what a game hears of (vsprite/events.h)
+//     velocity = [140, 0]       # of a subject that walks in place: px/s of its film, right, down
+//     body = [-18, -60, 18, 0]  # its tag's box to collide with (vsprite/body.h): left, top, right,
+//                               # bottom, px of the pack's pictures from the anchor
+//     events = [{ frame = 31, name = "step" }]   # what a game hears of (vsprite/events.h)
 //     match = false             # this one as it was filmed
 #pragma once
 
@@ -48,6 +50,7 @@ struct CastClip {
   double fps = 0;                                 ///< of a picture sequence; 0: the setting
   std::optional<bool> mirror;                     ///< empty: the setting
   std::optional<std::array<double, 2>> velocity;  ///< px/s of its film; empty: as it moved
+  std::optional<std::array<double, 4>> body;      ///< of its tag; empty: as measured
   bool match = true;
   std::vector<CastEvent> events;
 };

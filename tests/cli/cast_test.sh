@@ -73,6 +73,27 @@ is_json /stages/0/skipped /joins/0/cost /cast/1/scale
 [ "$(grep -c '"skipped": true' "$room/stdout")" = 5 ] || fail "a stage ran again although nothing had changed"
 expect 0 vsprite build hero.toml -o again.vsp --jobs 1
 [ "$(sum again.vsp)" = "$first" ] || fail "the same cast gives other bytes"
+
+# A box of one's own for a tag: nothing else changes. Pictures for the GPU: half the bytes.
+sed 's/^tag = "run"/&\nbody = [-7, -30.5, 8, 0]/' hero.toml >boxed.toml
+cp -r hero.work boxed.work
+expect 0 vsprite build boxed.toml -o boxed.vsp --work boxed.work
+expect 0 vsprite info boxed.vsp
+prints "body of run: [-7, -30.5, 8, 0] px from the anchor"
+grep "body of walk" stdout >boxed.txt
+expect 0 vsprite info hero.vsp
+grep -qxFf boxed.txt stdout || fail "another tag's box changed too"
+expect 0 vsprite build boxed.toml -o gpu.vsp --work boxed.work --pictures gpu --json
+is_json /stages/0/name
+expect 0 vsprite validate gpu.vsp; prints OK
+expect 0 vsprite info gpu.vsp --json
+is_json /loss/colour_psnr_db /loss/alpha_psnr_db /bodies/3/box/3
+expect 0 vsprite info gpu.vsp
+prints "pictures for the GPU: colour "
+[ "$(stat -c %s gpu.vsp)" -lt "$(stat -c %s boxed.vsp)" ] || fail "pictures for the GPU take more"
+expect 0 vsprite steer gpu.vsp --keys "0 right" --frames 120 --trace gpu.csv
+cmp -s gpu.csv right.csv || fail "pictures for the GPU steer otherwise"
+expect 2 vsprite build boxed.toml -o gpu.vsp --work boxed.work --pictures bc7; says "exact|gpu"
 sed -i 's/\[130, 0\]/[120, 0]/' hero.toml
 expect 0 vsprite segment hero.toml --work hero.work --verbose
 [ "$(sum hero.work/clips/01-walk/samples.csv)" = "$(sum again.work/clips/01-walk/samples.csv)" ] || fail "a clip changed with its neighbour"

@@ -17,6 +17,7 @@ TEST(CastFile, ReadsEveryKeyOfAClip) {
   const auto clips = parse_cast(
       "match = false\n[[clip]]\nfile = \"null\"\nframes = [12, 107]\ntag = \"walk\"\n"
       "key = \"#20c040\"\nmirror = true\nvelocity = [-140, 2.5]\nsubject = \"largest\"\n"
+      "body = [-18, -60.5, 18, 0]\n"
       "match = true\n[[clip]]\nfile = \"null\"\n",
       "/dev/hero.toml");
   ASSERT_TRUE(clips);
@@ -29,6 +30,8 @@ TEST(CastFile, ReadsEveryKeyOfAClip) {
   EXPECT_EQ(walk.mirror, std::optional(true));
   EXPECT_EQ((*walk.velocity)[0], -140);
   EXPECT_EQ((*walk.velocity)[1], 2.5);
+  EXPECT_EQ(walk.body, std::optional(std::array{-18.0, -60.5, 18.0, 0.0}));
+  EXPECT_FALSE((*clips)[1].body);
   EXPECT_TRUE(walk.match);
   EXPECT_FALSE((*clips)[1].match);
   EXPECT_FALSE((*clips)[1].mirror);
@@ -48,6 +51,14 @@ TEST(CastFile, NamesLineAndRemedyOfAFault) {
             "[140, 0] is due");
   EXPECT_EQ(fault_of(clip + "frames = [9, 3]\n"),
             "/dev/hero.toml:3:10: frames: the last, 3, comes before the first, 9");
+  EXPECT_EQ(fault_of(clip + "body = [1, 2, 3]\n"),
+            "/dev/hero.toml:3:8: body: left, top, right and bottom, px from the anchor, such as "
+            "[-18, -60, 18, 0], is due");
+  EXPECT_NE(fault_of(clip + "body = [1, 2, 0, 3]\n").find("lies left of its left one"),
+            std::string::npos);
+  EXPECT_NE(fault_of(clip + "body = [0, 0, 1, 1]\n" + clip + "body = [0, 0, 1, 2]\n")
+                .find("/dev/hero.toml:6:8: body: another clip of the tag"),
+            std::string::npos);
   EXPECT_EQ(fault_of(clip + "mirror = \"yes\"\n"),
             "/dev/hero.toml:3:10: mirror: true or false is due");
   EXPECT_NE(fault_of(clip + "key = \"greenish\"\n")
