@@ -21,11 +21,10 @@ float ask_clearance(const void* world, Vec2 position) {
 
 vsprite_box to_c(const Box& b) noexcept { return {b.left, b.top, b.right, b.bottom}; }
 
-vsprite_status check_action(const char* call, const vsprite_sprite* sprite, std::uint32_t action,
-                            std::int32_t within) noexcept {
+vsprite_status check_play(const char* call, const vsprite_sprite* sprite, std::uint32_t action,
+                          std::int32_t within) noexcept {
   if (!is_open(sprite)) return bad(call, kNoSprite);
-  const std::size_t count = sprite->engine->actions().size();
-  if (action >= count) return bad_index(call, "action", action, count);
+  if (const vsprite_status wrong = check_action(call, *sprite->engine, action)) return wrong;
   return is_within(within) ? VSPRITE_OK : bad(call, kNotWithin);
 }
 
@@ -145,7 +144,7 @@ vsprite_status vsprite_get_events(const vsprite_sprite* sprite, const vsprite_ac
 
 vsprite_status vsprite_play(const vsprite_sprite* sprite, vsprite_actor* actor,
                             std::uint32_t action, std::int32_t within, std::int32_t hold) {
-  if (const vsprite_status wrong = check_action(__func__, sprite, action, within)) return wrong;
+  if (const vsprite_status wrong = check_play(__func__, sprite, action, within)) return wrong;
   return change_actor(__func__, sprite, actor, [&](const Sprite& s, Actor& a) {
     play(s, a, static_cast<int>(action), within, hold != 0);
   });
@@ -153,8 +152,7 @@ vsprite_status vsprite_play(const vsprite_sprite* sprite, vsprite_actor* actor,
 
 vsprite_status vsprite_queue(const vsprite_sprite* sprite, vsprite_actor* actor,
                              std::uint32_t action, std::int32_t hold) {
-  if (const vsprite_status wrong = check_action(__func__, sprite, action, kNoDeadline))
-    return wrong;
+  if (const vsprite_status wrong = check_play(__func__, sprite, action, kNoDeadline)) return wrong;
   return change_actor(__func__, sprite, actor, [&](const Sprite& s, Actor& a) {
     queue(s, a, static_cast<int>(action), hold != 0);
   });

@@ -207,6 +207,13 @@ inline constexpr const char* kNotFinite = "a number is not finite, or out of ran
 inline constexpr const char* kNotWithin = "within -1 to 65535 ticks is due";
 inline constexpr const char* kNoResult = "a place for the result is due, null was found";
 
+/// VSPRITE_OK if the sprite has such an action.
+inline vsprite_status check_action(const char* call, const Sprite& sprite,
+                                   std::uint32_t action) noexcept {
+  const std::size_t count = sprite.actions().size();
+  return action < count ? VSPRITE_OK : bad_index(call, "action", action, count);
+}
+
 inline bool is_within(std::int32_t within) noexcept {
   return within >= kNoDeadline && within <= 65535;
 }

@@ -30,14 +30,12 @@ vsprite_status read_command(const char* call, const Sprite& sprite, const vsprit
       command.direction = static_cast<Direction>(c.direction);
       break;
     case Kind::Play:
-    case Kind::Queue: {
-      const std::size_t count = sprite.actions().size();
-      if (c.action >= count) return bad_index(call, "action", c.action, count);
+    case Kind::Queue:
+      if (const vsprite_status wrong = check_action(call, sprite, c.action)) return wrong;
       command.action = static_cast<std::uint16_t>(c.action);
       command.hold = c.hold != 0;
       if (command.kind == Kind::Queue) break;
       [[fallthrough]];
-    }
     case Kind::Release:
       if (!is_within(c.within)) return bad(call, kNotWithin);
       command.within = c.within;
