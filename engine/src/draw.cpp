@@ -118,6 +118,7 @@ Renderer::Impl::~Impl() {
   for (Surface& layer : layers) layer.free(device);
   frame.free(device);
   gl::free_target(device, encoded);
+  for (gl::Target& half : backdrop) gl::free_target(device, half);
 }
 
 Result<void> Renderer::Impl::set_up() {
@@ -155,7 +156,7 @@ void Renderer::Impl::flush() {
   if (what == Kind::Nothing || batch.empty()) return;
   if (what == Kind::Puppets) return flush_puppets();
   const bool sprites = what == Kind::Sprites;
-  Program* variant = sprites ? sprite_program(taps, old_page >= 0) : nullptr;
+  Program* variant = sprites ? sprite_program(taps, old_page >= 0, wrapped) : nullptr;
   Program& program = variant != nullptr     ? *variant
                      : sprites              ? sprite_programs[0][0]
                      : what == Kind::Shapes ? shape_program
@@ -178,6 +179,10 @@ void Renderer::Impl::flush() {
                                     static_cast<float>(atlas.page_height(old_page))});
     }
   }
+  if (sprites && wrapped) {
+    gl::bind(device, 2, backdrop.back().texture);
+    gl::set_sampler(device, program.location("backdrop"), 2);
+  }
   gl::blend(device, blend);
   gl::draw(device, stream, batch.data(),
            batch.size() / (4 * static_cast<std::size_t>(stream.vectors)));
@@ -185,12 +190,13 @@ void Renderer::Impl::flush() {
   ++stats.batches;
 }
 
-Program* Renderer::Impl::sprite_program(int samples, bool fading) {
-  Program& program =
-      sprite_programs[static_cast<std::size_t>(samples - 1)][static_cast<std::size_t>(fading)];
+Program* Renderer::Impl::sprite_program(int samples, bool fading, bool wraps) {
+  const auto kind_of = static_cast<std::size_t>((fading ? 1 : 0) + (wraps ? 2 : 0));
+  Program& program = sprite_programs[static_cast<std::size_t>(samples - 1)][kind_of];
   if (program.id == 0) {
-    const std::string defines =
-        "#define TAPS " + std::to_string(samples) + (fading ? "\n#define FADE\n" : "\n");
+    const std::string defines = "#define TAPS " + std::to_string(samples) +
+                                (fading ? "\n#define FADE" : "") +
+                                (wraps ? "\n#define WRAP\n" : "\n");
     const Result<gl::Id> made =
         gl::make_program(device, "sprite", glsl::sprite_vert, "", glsl::sprite_frag, defines);
     if (!made) return nullptr;
@@ -201,9 +207,9 @@ Program* Renderer::Impl::sprite_program(int samples, bool fading) {
 }
 
 void Renderer::Impl::select(Kind wanted, BlendMode mode, int wanted_page, int wanted_old,
-                            int wanted_taps) {
+                            int wanted_taps, bool wanted_wrap) {
   if (kind == wanted && blend == mode && page == wanted_page && old_page == wanted_old &&
-      taps == wanted_taps) {
+      taps == wanted_taps && wrapped == wanted_wrap) {
     return;
   }
   flush();
@@ -212,11 +218,13 @@ void Renderer::Impl::select(Kind wanted, BlendMode mode, int wanted_page, int wa
   page = wanted_page;
   old_page = wanted_old;
   taps = wanted_taps;
+  wrapped = wanted_wrap;
 }
 
 void Renderer::Impl::use_surface(Surface* surface) {
   flush();
   target = surface;
+  has_backdrop = false;
   puppets.slices = 0;
   camera = {};
   if (surface != nullptr) gl::draw_to(device, surface->main);
@@ -305,7 +313,8 @@ void Renderer::Impl::push_picture(const detail::Picture& p) {
   const float smallest = std::min(length(p.x_axis), length(p.y_axis));
   const float reach = p.footprint / std::max(smallest, 0.01f);
   const int samples = std::clamp(static_cast<int>(std::ceil(reach - 0.02f)), 1, detail::kMostTaps);
-  select(Kind::Sprites, BlendMode::Over, p.slot.page, p.old ? p.old->page : -1, samples);
+  select(Kind::Sprites, BlendMode::Over, p.slot.page, p.old ? p.old->page : -1, samples,
+         p.wrap > 0);
   const auto inner = [](const Rect& r) {
     return std::array{static_cast<float>(r.x + 1), static_cast<float>(r.y + 1),
                       static_cast<float>(r.width - 2), static_cast<float>(r.height - 2)};
@@ -324,7 +333,7 @@ void Renderer::Impl::push_picture(const detail::Picture& p) {
     push({0, 0, rect[2], rect[3]});
     push({p.slot.cuts[0], p.slot.cuts[1], p.slot.cuts[2], p.slot.cuts[3]});
   }
-  push({old[0], old[1], old[2], old[3], p.shift.x, p.shift.y, 0, 0});
+  push({old[0], old[1], old[2], old[3], p.shift.x, p.shift.y, p.wrap, p.wrap_reach});
   ++stats.sprites;
 }
 
@@ -403,6 +412,29 @@ void Renderer::clear(Color color) {
   gl::clear(impl_->device, color.r * color.a, color.g * color.a, color.b * color.a, color.a);
 }
 
+void Renderer::take_backdrop() {
+  Impl& m = *impl_;
+  if (m.target == nullptr) return;
+  m.flush();
+  m.has_backdrop = true;
+  const gl::Target* from = &m.target->main;
+  for (gl::Target& half : m.backdrop) {
+    const int width = (from->width + 1) / 2, height = (from->height + 1) / 2;
+    if (half.width != width || half.height != height) {
+      gl::free_target(m.device, half);
+      auto made = gl::make_target(m.device, width, height, false);
+      if (!made) {  // no memory: no light
+        m.has_backdrop = false;
+        break;
+      }
+      half = *made;
+    }
+    gl::reduce(m.device, *from, half);
+    from = &half;
+  }
+  gl::draw_to(m.device, m.target->main);
+}
+
 bool Renderer::is_cached(const TextureKey& key) const noexcept {
   return key.sprite != 0 && impl_->atlas.has(key);
 }
@@ -442,6 +474,8 @@ void Renderer::draw_sprite(const SpriteDraw& s) {
   p.tint = s.tint;
   p.fog = s.fog;
   p.fog_amount = s.fog_amount;
+  if (m.has_backdrop) p.wrap = std::min(s.wrap, 1.0f);
+  p.wrap_reach = s.wrap_reach;
   m.push_picture(p);
 }
 

@@ -397,6 +397,13 @@ void copy(const Device& device, const Target& from, const Target& to) {
                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void reduce(const Device& device, const Target& from, const Target& to) {
+  device->BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
+  device->BindFramebuffer(GL_DRAW_FRAMEBUFFER, to.framebuffer);
+  device->BlitFramebuffer(0, 0, from.width, from.height, 0, 0, to.width, to.height,
+                          GL_COLOR_BUFFER_BIT, GL_LINEAR);
+}
+
 void stretch(const Device& device, const Target& from, Id window, const Rect& place) {
   device->BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer);
   device->BindFramebuffer(GL_DRAW_FRAMEBUFFER, window);

@@ -97,6 +97,8 @@ void draw_to(const Device& device, const Target& target);
 void draw_to_window(const Device& device, Id framebuffer, const Rect& viewport);
 Id current_framebuffer(const Device& device);
 void copy(const Device& device, const Target& from, const Target& to);
+/// Bilinear: of half the size, each pixel is the mean of four.
+void reduce(const Device& device, const Target& from, const Target& to);
 /// Bilinear, turned upside down: windows count their rows from the bottom.
 void stretch(const Device& device, const Target& from, Id window, const Rect& place);
 void clear(const Device& device, float r, float g, float b, float a);

@@ -49,6 +49,7 @@ struct Surface {
 };
 
 constexpr int kPageSide = 2048;
+constexpr std::size_t kHalvings = 3;  // of the frame, for the backdrop's light
 constexpr int kMostTaps = 4;  // samples along a pixel's footprint
 
 enum class Kind { Nothing, Sprites, Shapes, Triangles, Puppets };
@@ -87,6 +88,7 @@ struct Picture {
   std::optional<AtlasSlot> old{};
   Vec2 shift{};
   float share = 0;
+  float wrap = 0, wrap_reach = 0;
 };
 
 }  // namespace detail
@@ -98,8 +100,8 @@ struct Renderer::Impl {
   detail::LightTable light;
   detail::Atlas atlas;
   std::vector<detail::gl::Id> pages;
-  /// [taps - 1][fading]; those beyond the first are compiled when they are needed.
-  std::array<std::array<detail::Program, 2>, detail::kMostTaps> sprite_programs;
+  /// [taps - 1][fading + 2 wrapped]; those beyond the first are compiled when they are needed.
+  std::array<std::array<detail::Program, 4>, detail::kMostTaps> sprite_programs;
   detail::Program shape_program, flat_program, window_program, file_program;
   detail::gl::Stream sprite_stream, shape_stream, flat_stream, empty_stream;
   std::vector<detail::Program> effects;
@@ -118,6 +120,9 @@ struct Renderer::Impl {
   BlendMode blend = BlendMode::Over;
   int page = -1, old_page = -1;  // of a batch of sprites; old_page -1: none of them fades
   int taps = 1;
+  bool wrapped = false;
+  std::array<detail::gl::Target, detail::kHalvings> backdrop{};  ///< each half of the one before
+  bool has_backdrop = false;                                     ///< of the present surface
   std::vector<float> batch;
   std::vector<std::uint16_t> staging;
   std::uint32_t uncached = 0;
@@ -134,7 +139,7 @@ struct Renderer::Impl {
   Result<void> set_up_puppets();
   void free_puppets();
   void select(detail::Kind wanted, BlendMode mode, int wanted_page = -1, int wanted_old = -1,
-              int wanted_taps = 1);
+              int wanted_taps = 1, bool wanted_wrap = false);
   void use_surface(detail::Surface* surface);
   void drop_frame();
   std::optional<detail::AtlasSlot> place(const TextureKey& key, int width, int height,
@@ -155,7 +160,7 @@ struct Renderer::Impl {
                                                  int side = 1, BlockView blocks = {});
   bool takes_blocks() const noexcept { return config.blocks && device.block_format != 0; }
   /// Null if the driver refuses the variant.
-  detail::Program* sprite_program(int taps, bool fading);
+  detail::Program* sprite_program(int taps, bool fading, bool wrapped);
   Vec2 to_frame(Vec2 p) const noexcept {
     return {(p.x - camera.origin.x) * camera.scale + camera.offset.x,
             (p.y - camera.origin.y) * camera.scale + camera.offset.y};

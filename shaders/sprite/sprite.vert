@@ -5,7 +5,8 @@
 // place: xy frame pixels of the picture's top left corner, z width of the footprint in pixels, w share
 // of the other picture     axes: frame pixels per texel, along x and y     rect, other: x, y, width,
 // height in the page, texels     box: what is covered, texels of the picture     cuts: off its corners,
-// clockwise from the top left     shift: of the other picture's corner, texels     tint, fog: linear
+// clockwise from the top left     shift: xy of the other picture's corner, texels, z share of the
+// backdrop's light, w its reach, texels     tint, fog: linear
 layout(location = 0) in vec4 place;
 layout(location = 1) in vec4 axes;
 layout(location = 2) in vec4 rect;
@@ -18,16 +19,19 @@ layout(location = 8) in vec4 shift;
 uniform vec2 frame_size;
 uniform vec2 page_size;
 out vec2 texel;  // within the picture; where one sample is taken, of the page, 0..1
-#if TAPS > 1 || defined(FADE)
+#if TAPS > 1 || defined(FADE) || defined(WRAP)
 flat out vec4 picture;
 #endif
 flat out vec4 own;    // color = light own + light.a veil
 flat out vec4 veil;
-#if TAPS > 1 || defined(FADE)
+#if TAPS > 1 || defined(FADE) || defined(WRAP)
 flat out vec4 fade;  // shift, footprint, share
 #endif
 #ifdef FADE
 flat out vec4 old;
+#endif
+#ifdef WRAP
+flat out vec2 wrap;  // share, reach
 #endif
 
 void main() {
@@ -56,7 +60,10 @@ void main() {
 #ifdef FADE
   old = other;
 #endif
-#if TAPS > 1 || defined(FADE)
+#ifdef WRAP
+  wrap = shift.zw;
+#endif
+#if TAPS > 1 || defined(FADE) || defined(WRAP)
   picture = rect;
   fade = vec4(shift.xy, place.zw);
   texel = at;

@@ -367,13 +367,39 @@ TEST_F(DrawActors, AFadingActorIsDrawnFromBothPictures) {
   }
 }
 
+TEST_F(Draw, TheBackdropsLightReachesOverTheEdgeAndNoFurther) {
+  Image grey{40, 40, std::vector<std::uint8_t>(6400, 0)};  // a square with a clear margin of 4
+  for (int y = 4; y < 36; ++y)
+    for (int x = 4; x < 36; ++x)
+      for (int c = 0; c < 4; ++c)
+        grey.rgba[static_cast<std::size_t>(4 * (40 * y + x) + c)] = c == 3 ? 255 : 60;
+  const auto shot = [&](float wrap, bool takes) {
+    renderer().begin_frame(80, 80);
+    renderer().clear(srgb(0x2040ff));
+    if (takes) renderer().take_backdrop();
+    renderer().draw_sprite({.image = grey, .key = {5, 1}, .position = {20, 20}, .wrap = wrap});
+    renderer().end_frame();
+    return renderer().read_pixels();
+  };
+  const Image plain = shot(0, true), wrapped = shot(0.8f, true);
+  EXPECT_EQ(shot(0.8f, false).rgba, plain.rgba);  // without a backdrop there is no light
+  EXPECT_EQ(color_at(wrapped, 40, 40), 0x3c3c3cu);
+  EXPECT_EQ(color_at(wrapped, 10, 10), 0x2040ffu);
+  const auto blue = [](const Image& image, int x) { return color_at(image, x, 40) & 255; };
+  EXPECT_GT(blue(wrapped, 24), blue(plain, 24) + 60);  // the outermost column
+  EXPECT_GT(blue(wrapped, 24), blue(wrapped, 26));
+  EXPECT_GT(blue(wrapped, 26), blue(wrapped, 29));
+  EXPECT_EQ(blue(wrapped, 29), 60u);  // beyond the reach of four
+}
+
 TEST_F(Draw, AThousandSizesLeaveNothingBehind) {
   const Image picture = noise_picture(20, 20, 3);
   long before = 0;
   for (int i = 0; i < 1000; ++i) {
     if (i == 200) before = testing::resident_pages();
     renderer().begin_frame(16 + i * 7 % 61, 16 + i * 5 % 53);
-    renderer().draw_sprite({.image = picture, .key = {7, 1}, .position = {4, 4}});
+    renderer().take_backdrop();
+    renderer().draw_sprite({.image = picture, .key = {7, 1}, .position = {4, 4}, .wrap = 1});
     renderer().end_frame(64 + i % 3, 48);
   }
   EXPECT_LT(testing::resident_pages(), before + 1024);

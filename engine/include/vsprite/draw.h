@@ -79,6 +79,11 @@ class Renderer {
   const Camera& camera() const noexcept;
 
   void draw_sprite(const SpriteDraw& sprite);
+  /// Keeps a small blurred copy of what was drawn so far in this frame or layer. Sprites with
+  /// SpriteDraw::wrap drawn after it get its light over their edges:  out += wrap a (1 - b) light,
+  /// with the coverage a and its mean b within `wrap_reach`. Cost: three reductions of the frame,
+  /// and eight more texels a pixel of such a sprite.
+  void take_backdrop();
   /// The shadow of a sprite, to be drawn before what stands on it. `sprite.image` may be empty
   /// where is_cached(shadow_key(sprite.key, shadow)); tint and fog do not count.
   void draw_shadow(const SpriteDraw& sprite, const Shadow& shadow);

@@ -76,6 +76,8 @@ struct SpriteDraw {
   Color fog{};           ///< colour of the water or air in between (its alpha is not used) ...
   float fog_amount = 0;  ///< ... 0 none, 1 a silhouette in that colour
   Fade fade{};           ///< the picture shown before
+  float wrap = 0;        ///< light of the backdrop over the edge, 0 none .. 1, after take_backdrop
+  float wrap_reach = 4;  ///< how far it reaches inwards, px of the image
   BlockView blocks{};    ///< instead of the image, where Renderer::takes_blocks; has no shadow
 };
 
