@@ -70,6 +70,7 @@ struct vsprite_frames {
   vsprite::c::Kind kind = kKind;
   vsprite_sprite* sprite = nullptr;
   vsprite::FrameCache cache;
+  vsprite::Image shadow;  ///< handed out last
   vsprite_frames(vsprite_sprite* of, std::size_t budget) : sprite(of), cache(*of->engine, budget) {}
 };
 

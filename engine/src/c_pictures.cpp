@@ -100,6 +100,33 @@ vsprite_status vsprite_get_picture(vsprite_frames* frames, std::uint32_t sample,
   return VSPRITE_OK;
 }
 
+vsprite_status vsprite_get_shadow(vsprite_frames* frames, std::uint32_t sample,
+                                  vsprite_picture* out, float* scale) {
+  if (!is_open(frames)) return bad(__func__, kNoFrames);
+  const Sprite& engine = *frames->sprite->engine;
+  if (sample >= engine.samples().size())
+    return bad_index(__func__, "sample", sample, engine.samples().size());
+  if (scale == nullptr) return bad(__func__, kNoResult);
+  std::uint32_t size = 0;
+  if (const vsprite_status wrong = size_of(__func__, out, size)) return wrong;
+  const MemoryScope scope(frames->sprite->memory);
+  vsprite_picture picture{};
+  picture.struct_size = size;
+  *scale = engine.data().shadow_scale;
+  const FilmedShadow* shadow = find_shadow(engine, sample);
+  if (shadow != nullptr && decode_shadow(*shadow, frames->shadow)) {
+    const ImageView view = frames->shadow;
+    picture.width = static_cast<std::uint32_t>(view.width);
+    picture.height = static_cast<std::uint32_t>(view.height);
+    picture.stride = static_cast<std::uint32_t>(view.stride);
+    picture.rgba = view.rgba;
+    picture.anchor_x = shadow->anchor.x;
+    picture.anchor_y = shadow->anchor.y;
+  }
+  hand_out(picture, size, out);
+  return VSPRITE_OK;
+}
+
 vsprite_status vsprite_look_ahead(vsprite_frames* frames, const vsprite_actor* theirs) {
   if (!is_open(frames)) return bad(__func__, kNoFrames);
   Actor actor;
@@ -232,8 +259,10 @@ vsprite_status vsprite_draw_actor(vsprite_canvas* canvas, vsprite_frames* frames
   const MemoryScope scope(frames->sprite->memory);
   DrawOptions options;
   options.scale = scale;
-  draw_sample(canvas->image, frames->cache.frame(actor.sample), engine.samples()[actor.sample],
-              draw_position(engine, actor, fraction), options);
+  const Vec2 at = draw_position(engine, actor, fraction);
+  draw_shadow(canvas->image, engine, actor.sample, at, options);
+  draw_sample(canvas->image, frames->cache.frame(actor.sample), engine.samples()[actor.sample], at,
+              options);
   return VSPRITE_OK;
 }
 

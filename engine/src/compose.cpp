@@ -393,4 +393,17 @@ void draw_sample(Image& canvas, ImageView picture, const Sample& sample, Vec2 po
   draw_picture(canvas, picture, top_left, options);
 }
 
+void draw_shadow(Image& canvas, const Sprite& sprite, std::uint32_t sample, Vec2 position,
+                 const DrawOptions& options) noexcept {
+  const FilmedShadow* shadow = find_shadow(sprite, sample);
+  Image picture;
+  if (shadow == nullptr || !decode_shadow(*shadow, picture)) return;
+  DrawOptions enlarged = options;
+  enlarged.scale *= sprite.data().shadow_scale;
+  draw_picture(canvas, picture,
+               {position.x - shadow->anchor.x * enlarged.scale,
+                position.y - shadow->anchor.y * enlarged.scale},
+               enlarged);
+}
+
 }  // namespace vsprite

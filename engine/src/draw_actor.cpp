@@ -44,6 +44,35 @@ SpriteDraw sprite_of(const ActorDraw& a, float fraction, bool takes_blocks,
   return s;
 }
 
+// The shadow that was filmed with a sample, `share` of it.
+void draw_filmed(Renderer& renderer, const ActorDraw& a, std::uint32_t sample, float fraction,
+                 float share) {
+  constexpr std::uint32_t kShadows = 1u << 31;  // beyond all samples
+  const FilmedShadow* shadow = find_shadow(*a.sprite, sample);
+  if (shadow == nullptr || !(share > 0)) return;
+  const Vec2 at = draw_position(*a.sprite, *a.actor, fraction);
+  SpriteDraw s{.key = key_of(*a.sprite, kShadows | sample),
+               .position = {at.x + a.look.position.x, at.y + a.look.position.y},
+               .anchor = shadow->anchor,
+               .scale = a.look.scale * a.sprite->data().shadow_scale,
+               .angle = a.look.angle,
+               .mirror = a.look.mirror,
+               .tint = {1, 1, 1, a.look.tint.a * share}};
+  Image picture;
+  if (!renderer.is_cached(reduced_key(s.key, s.scale * renderer.camera().scale))) {
+    if (!decode_shadow(*shadow, picture)) return;
+    s.image = picture;
+  }
+  renderer.draw_sprite(s);
+}
+
+void draw_filmed(Renderer& renderer, const ActorDraw& a, float fraction) {
+  if (a.sprite->data().shadows.empty()) return;
+  const float share = a.fade != nullptr ? fade_share(*a.fade, fraction) : 0.0f;
+  draw_filmed(renderer, a, a.actor->sample, fraction, 1 - share);
+  if (share > 0) draw_filmed(renderer, a, a.fade->before, fraction, share);
+}
+
 void draw_one(Renderer& renderer, const ActorDraw& a, float fraction) {
   // Blocks are drawn as they are, whatever the scale.
   const bool takes_blocks = renderer.takes_blocks() && a.sprite->has_blocks();
@@ -58,25 +87,29 @@ void draw_one(Renderer& renderer, const ActorDraw& a, float fraction) {
 
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 float fraction, const SpriteDraw& look) {
-  draw_one(renderer, {&sprite, &frames, &actor, nullptr, look}, fraction);
+  const ActorDraw one{&sprite, &frames, &actor, nullptr, look};
+  draw_filmed(renderer, one, fraction);
+  draw_one(renderer, one, fraction);
 }
 
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 const ActorFade& fade, float fraction, const SpriteDraw& look) {
-  draw_one(renderer, {&sprite, &frames, &actor, &fade, look}, fraction);
+  const ActorDraw one{&sprite, &frames, &actor, &fade, look};
+  draw_filmed(renderer, one, fraction);
+  draw_one(renderer, one, fraction);
 }
 
 void forget(Renderer& renderer, const Sprite& sprite) { renderer.forget(key_of(sprite, 0).sprite); }
 
 void draw_actors(Renderer& renderer, std::span<const ActorDraw> actors, float fraction,
                  const Shadow* shadow) {
-  if (shadow != nullptr) {
-    for (const ActorDraw& a : actors) {
-      const auto is_there = [&](const TextureKey& key) {
-        return renderer.is_cached(shadow_key(key, *shadow));
-      };
-      renderer.draw_shadow(sprite_of(a, fraction, false, is_there), *shadow);
-    }
+  for (const ActorDraw& a : actors) {
+    draw_filmed(renderer, a, fraction);
+    if (shadow == nullptr || !a.sprite->data().shadows.empty()) continue;
+    const auto is_there = [&](const TextureKey& key) {
+      return renderer.is_cached(shadow_key(key, *shadow));
+    };
+    renderer.draw_shadow(sprite_of(a, fraction, false, is_there), *shadow);
   }
   std::vector<std::pair<float, const ActorDraw*>> order;
   order.reserve(actors.size());

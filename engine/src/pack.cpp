@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "pack_format.h"
+#include "sections.h"
 
 namespace vsprite {
 namespace detail {
@@ -134,6 +135,10 @@ Result<std::vector<PackIssue>> verify_pack_from(ByteSource source, std::size_t m
       return issues;
     }
     verify_frames(source, content, most, issues);
+    for (const FilmedShadow& shadow : content.data.shadows) {
+      if (issues.size() >= most) break;
+      if (Check bad = verify_shadow(shadow)) issues.push_back(bad->issue);
+    }
     return issues;
   } catch (const std::bad_alloc&) {
     return Error{ErrorCode::OutOfMemory, source.name() + ": out of memory while verifying"};

@@ -23,6 +23,8 @@ constexpr Kind kKinds[] = {
      event_bytes, read_events, check_events},
     {"BODY", [](const SpriteData& data) { return !data.bodies.empty(); }, body_bytes, read_bodies,
      check_bodies},
+    {"SHDW", [](const SpriteData& data) { return !data.shadows.empty(); }, shadow_bytes,
+     read_shadows, check_shadows},
 };
 
 Check read_kind(const ByteSource& source, const Kind& kind, PackContent& content) {

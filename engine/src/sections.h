@@ -41,4 +41,10 @@ Bytes body_bytes(const SpriteData& data);
 Check read_bodies(std::span<const std::uint8_t> bytes, std::uint64_t offset, SpriteData& data);
 Check check_bodies(const SpriteData& data);
 
+// SHDW (shadow.cpp). `verify_shadow`: its picture too, which costs decoding it.
+Bytes shadow_bytes(const SpriteData& data);
+Check read_shadows(std::span<const std::uint8_t> bytes, std::uint64_t offset, SpriteData& data);
+Check check_shadows(const SpriteData& data);
+Check verify_shadow(const FilmedShadow& shadow);
+
 }  // namespace vsprite::detail

@@ -304,6 +304,12 @@ SampleChoice take_samples(const SpriteData& data, const std::vector<std::uint8_t
   }
   for (const SampleEvent& event : data.events)
     if (chosen[event.sample] != 0) out.events.push_back({number[event.sample], event.name});
+  out.shadow_scale = data.shadow_scale;
+  for (const FilmedShadow& shadow : data.shadows) {
+    if (chosen[shadow.sample] == 0) continue;
+    out.shadows.push_back(shadow);
+    out.shadows.back().sample = number[shadow.sample];
+  }
   return choice;
 }
 

@@ -19,6 +19,7 @@ constexpr std::size_t kPerSample = 60 + 24 + 4;  // SAMP, FIDX, a start of a row
 constexpr std::size_t kPerTransition = 8;
 constexpr std::size_t kPerEntry = 8;           // of a table: next, go
 constexpr std::size_t kPerAction = 20;         // and 4 for every deadline
+constexpr std::size_t kPerShadow = 24;         // and its picture
 constexpr std::size_t kSectionCost = 32 + 64;  // entry of the table, gap before the section
 constexpr std::array<std::string_view, 7> kWhole = {"META", "EVNT", "BODY", "GRND",
                                                     "PUPT", "PSET", "LOSS"};
@@ -48,6 +49,8 @@ std::vector<double> sample_bytes(const Sprite& sprite) {
   std::vector<double> bytes;
   for (std::uint32_t i = 0; i < data.samples.size(); ++i)
     bytes.push_back(static_cast<double>(rows + sprite.picture_bytes(i)));
+  for (const FilmedShadow& shadow : data.shadows)
+    bytes[shadow.sample] += static_cast<double>(kPerShadow + shadow.picture.size());
   return bytes;
 }
 

@@ -138,6 +138,33 @@ TEST_F(CApi, HandsOutThePicturesOfTheEngine) {
   }
 }
 
+TEST_F(CApi, HandsOutTheShadowThatWasFilmed) {
+  float scale = 0;
+  vsprite_picture picture{};
+  picture.struct_size = sizeof picture;
+  ASSERT_EQ(vsprite_get_shadow(frames_, 4, &picture, &scale), VSPRITE_OK);
+  EXPECT_EQ(picture.width, 0u);  // this pack has none
+
+  SpriteData data = testing::tiny_sprite_data();
+  ASSERT_TRUE(add_shadow(data, 4, make_image(9, 5, 0, 0, 0, 77), {4, 1}));
+  const testing::TempFolder folder;
+  ASSERT_TRUE(save_pack(folder.file("s.vsp"), data, [&](std::uint32_t sample) {
+    return Result<Image>(testing::tiny_picture(data, sample));
+  }));
+  vsprite_sprite* shaded = nullptr;
+  vsprite_frames* frames = nullptr;
+  ASSERT_EQ(vsprite_load_pack(folder.file("s.vsp").c_str(), &shaded), VSPRITE_OK);
+  ASSERT_EQ(vsprite_make_frames(shaded, 0, &frames), VSPRITE_OK);
+  ASSERT_EQ(vsprite_get_shadow(frames, 4, &picture, &scale), VSPRITE_OK);
+  EXPECT_EQ(picture.width, 9u);
+  EXPECT_EQ(picture.rgba[0], 0);
+  EXPECT_EQ(picture.rgba[3], 77);
+  EXPECT_EQ(picture.anchor_x, 4);
+  EXPECT_EQ(scale, 2);
+  EXPECT_EQ(vsprite_close_frames(&frames), VSPRITE_OK);
+  EXPECT_EQ(vsprite_close_sprite(&shaded), VSPRITE_OK);
+}
+
 TEST_F(CApi, DrawsAndHitsTheCharacter) {
   ASSERT_EQ(vsprite_draw_actor(canvas_, frames_, &actor_, 0, 1), VSPRITE_OK);
   vsprite_picture picture{};
@@ -649,6 +676,7 @@ TEST_F(CApi, EveryWrongArgumentHasItsCode) {
   double angle = 0;
   auto info = sized<vsprite_info>(), small_info = sized<vsprite_info>(8);
   auto sample = sized<vsprite_sample>(), no_sample = sized<vsprite_sample>(0);
+  float scale = 0;
   auto picture = sized<vsprite_picture>(), huge = sized<vsprite_picture>(0xFFFFFFFF);
   auto stats = sized<vsprite_frames_stats>(), small_stats = sized<vsprite_frames_stats>(4);
   auto events = sized<vsprite_tick_events>(), no_events = sized<vsprite_tick_events>(0);
@@ -788,6 +816,11 @@ TEST_F(CApi, EveryWrongArgumentHasItsCode) {
       WRONG(vsprite_get_picture, "index", kBad, frames_, 1000000, &picture),
       WRONG(vsprite_get_picture, "result", kBad, frames_, 1, nullptr),
       WRONG(vsprite_get_picture, "size", kBad, frames_, 1, &huge),
+      WRONG(vsprite_get_shadow, "frames", kBad, nullptr, 1, &picture, &scale),
+      WRONG(vsprite_get_shadow, "kind", kBad, no_frames, 1, &picture, &scale),
+      WRONG(vsprite_get_shadow, "index", kBad, frames_, 1000000, &picture, &scale),
+      WRONG(vsprite_get_shadow, "result", kBad, frames_, 1, &picture, nullptr),
+      WRONG(vsprite_get_shadow, "size", kBad, frames_, 1, &huge, &scale),
       WRONG(vsprite_look_ahead, "frames", kBad, nullptr, &a),
       WRONG(vsprite_look_ahead, "actor", kBad, frames_, nullptr),
       WRONG(vsprite_look_ahead, "state", kBad, frames_, &strange),

@@ -32,6 +32,7 @@ void play(const Sprite& sprite) {
       require(sprite.samples()[actor.sample].kept == 1);
     }
     const Sample& sample = sprite.samples()[actor.sample];
+    draw_shadow(canvas, sprite, actor.sample, {24, 24});
     draw_sample(canvas, cache.frame(actor.sample), sample, {24, 24});
   }
 }
@@ -48,6 +49,10 @@ void fuzz_pack(std::span<const std::uint8_t> bytes) {
   Image image;
   for (std::uint32_t i = 0; i < sprite->samples().size(); ++i) {
     const bool decoded = sprite->decode_frame(i, image).has_value();
+    require(decoded || !valid);
+  }
+  for (const FilmedShadow& shadow : sprite->data().shadows) {
+    const bool decoded = decode_shadow(shadow, image);
     require(decoded || !valid);
   }
 }

@@ -345,6 +345,40 @@ TEST_F(DrawActors, NoShadowFallsOnAnActor) {
   EXPECT_EQ(renderer().stats().sprites, 2u);
 }
 
+// The CPU's draw_shadow is the reference; the actor stands over its shadow, which takes the place
+// of a made one and falls on no actor.
+TEST_F(DrawActors, AFilmedShadowLiesUnderItsActor) {
+  SpriteData data = testing::tiny_sprite_data();
+  const std::uint32_t sample = testing::tiny_sample(0, 3);
+  ASSERT_TRUE(add_shadow(data, sample, make_image(20, 9, 0, 0, 0, 128), {10, 3}));
+  const auto picture = [&](std::uint32_t i) -> Result<Image> {
+    return testing::tiny_picture(data, i);
+  };
+  ASSERT_TRUE(save_pack(folder_.file("shaded.vsp"), data, picture));
+  const Sprite shaded = *load_pack(folder_.file("shaded.vsp"));
+  FrameCache frames(shaded, std::size_t{1} << 20);
+  Actor actor = make_actor(shaded, {40, 30});
+  actor.sample = sample;
+  const std::array<ActorDraw, 1> one{ActorDraw{&shaded, &frames, &actor}};
+  Image due = make_image(96, 80, 255, 255, 255);
+  draw_shadow(due, shaded, sample, {40, 30});
+  draw_sample(due, frames.frame(sample), shaded.samples()[sample], {40, 30});
+  const Image seen = shot(one);
+  EXPECT_LE(largest_difference(seen, due), 2);
+  const Shadow made{.opacity = 1, .squash = 1};
+  EXPECT_EQ(largest_difference(shot(one, &made), seen), 0);
+  renderer().begin_frame(96, 80);
+  renderer().clear(srgb(0xffffff));
+  draw_actor(renderer(), shaded, frames, actor);
+  renderer().end_frame();
+  EXPECT_EQ(largest_difference(renderer().read_pixels(), seen), 0);
+  Actor other = make_actor(shaded, {40, 42});
+  other.sample = testing::tiny_sample(3, 3);
+  const std::array<ActorDraw, 2> both{ActorDraw{&shaded, &frames, &other, nullptr, {}, -1}, one[0]};
+  const std::array<ActorDraw, 1> alone{both[0]};
+  EXPECT_EQ(color_at(shot(both), 40, 46), color_at(shot(alone), 40, 46));
+}
+
 TEST_F(DrawActors, AFadingActorIsDrawnFromBothPictures) {
   Actor actor = make_actor(*sprite_, {40, 30});
   ActorFade fade;

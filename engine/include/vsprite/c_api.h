@@ -369,6 +369,11 @@ VSPRITE_API vsprite_status vsprite_make_frames(vsprite_sprite* sprite, uint64_t 
 VSPRITE_API vsprite_status vsprite_close_frames(vsprite_frames** frames);
 VSPRITE_API vsprite_status vsprite_get_picture(vsprite_frames* frames, uint32_t sample,
                                                vsprite_picture* picture);
+/* The shadow filmed with a sample (shadow.h): black, to be drawn under its picture, anchor on
+   anchor and enlarged by `scale`; width 0: it has none. Valid until the next call with these
+   frames. */
+VSPRITE_API vsprite_status vsprite_get_shadow(vsprite_frames* frames, uint32_t sample,
+                                              vsprite_picture* shadow, float* scale);
 VSPRITE_API vsprite_status vsprite_look_ahead(vsprite_frames* frames, const vsprite_actor* actor);
 VSPRITE_API vsprite_status vsprite_get_frames_stats(const vsprite_frames* frames,
                                                     vsprite_frames_stats* stats);

@@ -49,6 +49,11 @@ void draw_picture(Image& canvas, ImageView picture, Vec2 top_left,
 void draw_sample(Image& canvas, ImageView picture, const Sample& sample, Vec2 position,
                  const DrawOptions& options = {}) noexcept;
 
+/// The sample's filmed shadow (shadow.h) under its anchor at `position`, where it has one; drawn
+/// before the sample. May allocate: out of memory it draws nothing.
+void draw_shadow(Image& canvas, const Sprite& sprite, std::uint32_t sample, Vec2 position,
+                 const DrawOptions& options = {}) noexcept;
+
 /// A silhouette, blurred and reduced: pixel p of `image` lies at p scale + corner of the picture.
 struct SoftShadow {
   Image image;      ///< white, premultiplied: every channel is the coverage

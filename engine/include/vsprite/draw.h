@@ -167,8 +167,9 @@ Result<Renderer> make_renderer(GlLoader load, const RendererConfig& config = {})
 /// Width of the longest line and height of all, game pixels.
 Vec2 measure_text(std::string_view text, const TextStyle& style = {}) noexcept;
 
-/// Draws an actor where it is, `fraction` of a tick after its last step. `look` may set scale,
-/// angle, mirror, tint and fog, and move it: its position is added.
+/// Draws an actor where it is, `fraction` of a tick after its last step, over its filmed shadow
+/// where the pack has one (shadow.h). `look` may set scale, angle, mirror, tint and fog, and move
+/// it: its position is added.
 void draw_actor(Renderer& renderer, const Sprite& sprite, FrameCache& frames, const Actor& actor,
                 float fraction = 0, const SpriteDraw& look = {});
 /// The same, its jumps faded (show.h): call follow(sprite, actor, fade) after every step.
@@ -189,8 +190,8 @@ struct ActorDraw {
   float depth = std::numeric_limits<float>::quiet_NaN();
 };
 
-/// All shadows, then all actors from far to near; those of one depth in the order given. `shadow`
-/// may be null: none.
+/// All shadows, then all actors from far to near; those of one depth in the order given. A sprite's
+/// shadow is the filmed one where its pack has them, else `shadow`, or with null none.
 void draw_actors(Renderer& renderer, std::span<const ActorDraw> actors, float fraction = 0,
                  const Shadow* shadow = nullptr);
 

@@ -28,6 +28,7 @@
 #include "vsprite/geometry.h"
 #include "vsprite/image.h"
 #include "vsprite/result.h"
+#include "vsprite/shadow.h"
 #include "vsprite/tagged.h"
 
 namespace vsprite {
@@ -125,6 +126,9 @@ struct SpriteData {
   std::vector<std::string> event_names;
   std::vector<SampleEvent> events;  ///< ascending
   std::vector<BodyBox> bodies;      ///< ascending by tag; every tag that a sample has, or none
+  // Of a sprite built with its shadow (shadow.h).
+  float shadow_scale = 2;             ///< sprite pixels per pixel of a shadow, > 0
+  std::vector<FilmedShadow> shadows;  ///< ascending by sample
 };
 
 /// A loaded pack: the data above, and the pictures, decoded on demand from the file, which

@@ -19,6 +19,7 @@
 #include "vsprite/reload.h"
 #include "vsprite/replay.h"
 #include "vsprite/result.h"
+#include "vsprite/shadow.h"
 #include "vsprite/show.h"
 #include "vsprite/sprite.h"
 #include "vsprite/stream.h"
