@@ -60,6 +60,11 @@ Light show(const Frame& frame, const KeyedFrame& keyed, View view, const Image& 
   const float board = (x / 8 + y / 8) % 2 ? 0.65f : 0.35f;
   Light light = view == View::Background ? background_light(frame, background, x, y)
                                          : Light{{board, board, board}};
+  const Rect& cells = keyed.shade_cells;
+  const int u = x / 2 - cells.x, v = y / 2 - cells.y;
+  if (u >= 0 && v >= 0 && u < cells.width && v < cells.height)
+    for (float& channel : light.rgb)
+      channel *= 1 - static_cast<float>(keyed.shade[offset(u, v, cells.width)]) / 255;
   for (int p = 0; p < 3; ++p)
     light.rgb[p] = a * (pixel ? linear_of(pixel[p]) : 0.0f) + (1 - a) * light.rgb[p];
   return light;

@@ -443,4 +443,45 @@ Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row) {
   return image;
 }
 
+CutShadow cut_shadow(const KeyedFrame& frame, int label, const SampleRow& row) {
+  CutShadow out;
+  const Rect& cells = frame.shade_cells;
+  const auto at = [&cells](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(cells.width) +
+           static_cast<std::size_t>(x);
+  };
+  int left = cells.width, top = cells.height, right = 0, bottom = 0;
+  for (int y = 0; y < cells.height; ++y)
+    for (int x = 0; x < cells.width; ++x) {
+      if (frame.shade_labels[at(x, y)] != label || frame.shade[at(x, y)] == 0) continue;
+      left = std::min(left, x), right = std::max(right, x + 1);
+      top = std::min(top, y), bottom = std::max(bottom, y + 1);
+    }
+  if (right <= left) return out;
+  const double step = 1 / row.scale;  // cells a pixel: both count half the film's and the picture's
+  Image& image = out.image;
+  image.width = static_cast<int>(std::ceil((right - left) * row.scale - 1e-6)) + 2;
+  image.height = static_cast<int>(std::ceil((bottom - top) * row.scale - 1e-6)) + 2;
+  image.rgba.assign(
+      4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), 0);
+  out.anchor_x = rounded((row.anchor_x / 2 - (cells.x + left)) * row.scale + 1, 1000);
+  out.anchor_y = rounded((row.anchor_y / 2 - (cells.y + top)) * row.scale + 1, 1000);
+  for (int v = 0; v < image.height; ++v) {
+    const Reach rows = reach_of(top - step, step, v, 0, cells.height);
+    for (int u = 0; u < image.width; ++u) {
+      const Reach columns = reach_of(left - step, step, u, 0, cells.width);
+      float sum = 0;
+      for (int y = rows.from; y < rows.to; ++y)
+        for (int x = columns.from; x < columns.to; ++x)
+          if (frame.shade_labels[at(x, y)] == label)
+            sum += share_of(rows, y) * share_of(columns, x) * frame.shade[at(x, y)];
+      image.rgba[4 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
+                      static_cast<std::size_t>(u)) +
+                 3] =
+          static_cast<std::uint8_t>(std::min(sum / static_cast<float>(step * step) + 0.5f, 255.0f));
+    }
+  }
+  return out;
+}
+
 }  // namespace vsprite

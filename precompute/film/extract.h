@@ -90,4 +90,13 @@ std::vector<double> ground_lines(const KeyedFrame& frame);
 /// to row.scale. The result's size is row.width * scale by row.height * scale, whole pixels.
 Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row);
 
+/// A sample's shadow: black with the shade as coverage, half as many pixels a side as its picture
+/// has for the same length.
+struct CutShadow {
+  Image image;                        ///< empty: there is none
+  double anchor_x = 0, anchor_y = 0;  ///< of the sample, px of this image
+};
+/// Cuts it out of a frame keyed with MatteConfig::shadow, with a clear border of one pixel.
+CutShadow cut_shadow(const KeyedFrame& frame, int label, const SampleRow& row);
+
 }  // namespace vsprite

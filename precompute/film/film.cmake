@@ -17,6 +17,7 @@ target_sources(vsprite_precompute PRIVATE
   film/unmix.cpp
   film/matte.cpp
   film/touch_up.cpp
+  film/cast_shadow.cpp
   film/coverage.cpp
   film/subject.cpp
   film/extract.cpp

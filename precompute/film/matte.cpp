@@ -15,6 +15,7 @@
 #include <array>
 #include <cstring>
 
+#include "film/cast_shadow.h"
 #include "film/color.h"
 #include "film/coverage.h"
 #include "film/light.h"
@@ -617,6 +618,7 @@ KeyedFrame Keyer::key(const Frame& frame, const Frame* before) {
     k.find_blobs(result, labels);
     k.paint(frame, labels, result);
     k.touch_up_color(result);
+    if (k.config.shadow) detail::measure_shadow(*k.screen, frame, result);
   }
   if (before && !result.blobs.empty())
     result.difference = mean_difference(frame, *before, result.blobs[0].box);

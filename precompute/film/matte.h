@@ -34,6 +34,8 @@ struct MatteConfig {
   /// everywhere, within the subject too.
   float despill = 1;
 
+  bool shadow = false;  ///< the shade that the subject casts is measured too
+
   bool operator==(const MatteConfig&) const = default;
 };
 
@@ -57,6 +59,10 @@ struct KeyedFrame {
   std::vector<Blob> blobs;           ///< largest first, at most 32
   int lost_before = 0;               ///< frames missing before it, by the time stamps
   double difference = 0;  ///< mean |Y - Y of the frame before| over the subject's box (duplicates)
+  // With MatteConfig::shadow, on the chroma grid.
+  Rect shade_cells = {};                 ///< cells; empty: no shadow
+  std::vector<std::uint8_t> shade = {};  ///< (shade_cells) 255 times the light that is missing
+  std::vector<std::uint8_t> shade_labels = {};  ///< (shade_cells) whose shadow, 0: no one's
 };
 
 /// Keys one frame. Pure and deterministic; any number of threads, one Keyer each. Making one is

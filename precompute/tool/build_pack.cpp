@@ -10,6 +10,7 @@
 #include "control/actions.h"
 #include "tool/budget.h"
 #include "tool/report.h"
+#include "tool/shadows.h"
 #include "tool/stages.h"
 #include "tool/views_file.h"
 #include "vsprite/ground.h"
@@ -317,6 +318,7 @@ Result<Json> write_pack(StageRun& run) {
   auto data = make_sprite_data(*film, *rows, *file, *values, boxes);
   if (!data) return data.error();
   if (auto added = add_actions(run, *file, *data); !added) return added.error();
+  if (auto added = add_shadows(run.project, *rows, *data); !added) return added.error();
   if (const Json* made = run.project.record("segment")) {
     const Json cast = made->value("result", Json::object()).value("cast", Json());
     add_events(cast, *rows, *data);

@@ -11,6 +11,7 @@
 
 #include "film/match.h"
 #include "film/source.h"
+#include "tool/shadows.h"
 
 namespace vsprite {
 namespace {
@@ -26,6 +27,7 @@ struct Member {
   Project project;
   Json result;
   std::vector<SampleRow> rows;
+  std::vector<ShadowRow> shadows;
   Rate rate;
   MeanColor color;
   Matching matching;
@@ -62,6 +64,9 @@ Result<void> read_member(Member& member) {
   if (!film) return film.error();
   member.rate = {film->fps_numerator, film->fps_denominator};
   member.rows = std::move(*rows);
+  auto shadows = read_shadows(member.project);
+  if (!shadows) return shadows.error();
+  member.shadows = std::move(*shadows);
   PictureReader reader(member.project, member.rows);
   for (std::size_t i = 0; i < member.rows.size(); ++i) {
     const auto picture = reader.picture(static_cast<int>(i));
@@ -77,7 +82,7 @@ Result<Member> segment_member(StageRun& run, const CastClip& clip, std::size_t i
   const std::string folder = run.project.path("clips/" + folder_of(index, clip));
   auto project = Project::open(folder, true);
   if (!project) return project.error();
-  Member member{&clip, std::move(*project), {}, {}, {}, {}, {}};
+  Member member{&clip, std::move(*project), {}, {}, {}, {}, {}, {}};
   const Settings own = clip_settings(run.settings, clip);
   StageListener listener;
   const std::string name = clip.tag.empty() ? clip.file : clip.tag;
@@ -205,23 +210,60 @@ Result<std::vector<std::uint8_t>> picture_of(const Origin& origin, const SampleR
   return encode_png(*picture);
 }
 
+/// The shadow of that picture, in the set's scale; nothing where it has none.
+Result<std::vector<std::uint8_t>> shadow_of(const Origin& origin, const SampleRow& row,
+                                            ShadowRow& shadow) {
+  const Member& member = *origin.member;
+  const auto found =
+      std::lower_bound(member.shadows.begin(), member.shadows.end(), origin.sample,
+                       [](const ShadowRow& of, int sample) { return of.sample < sample; });
+  if (found == member.shadows.end() || found->sample != origin.sample)
+    return std::vector<std::uint8_t>{};
+  auto picture = read_shadow(member.project, *found);
+  if (!picture) return picture.error();
+  const SampleRow& old = member.rows[static_cast<std::size_t>(origin.sample)];
+  const double ratio = old.scale / (member.matching.scale * row.scale);
+  shadow = *found;
+  shadow.sample = row.sample;
+  if (ratio != 1) {
+    constexpr double kNoGain[3] = {1, 1, 1};
+    shadow.width = static_cast<int>(std::ceil(found->width / ratio - 1e-6));
+    shadow.height = static_cast<int>(std::ceil(found->height / ratio - 1e-6));
+    shadow.anchor_x = std::floor(1000 * found->anchor_x / ratio + 0.5) / 1000;
+    shadow.anchor_y = std::floor(1000 * found->anchor_y / ratio + 0.5) / 1000;
+    *picture = redrawn(*picture, ratio, shadow.width, shadow.height, kNoGain);
+  }
+  return encode_png(*picture);
+}
+
 Result<void> write_pictures(StageRun& run, const CastRows& cast) {
   const Project& project = run.project;
   std::error_code error;
   fs::remove(project.path("samples.csv"), error);
   fs::remove_all(project.path("sprites"), error);
+  remove_shadows(project);
+  if (run.settings.shadow)
+    if (auto made = make_folder(project.path(kShadowFolder)); !made) return made.error();
+  std::vector<ShadowRow> shadows;
   if (auto made = make_folder(project.path("sprites")); !made) return made.error();
   using Png = Result<std::vector<std::uint8_t>>;
   const std::size_t count = cast.origins.size();
   for (std::size_t begin = 0; begin < count; begin += kTogether) {
     const std::size_t size = std::min<std::size_t>(kTogether, count - begin);
-    std::vector<Png> pictures(size, Png(std::vector<std::uint8_t>{}));
+    std::vector<Png> pictures(size, Png(std::vector<std::uint8_t>{})), shades = pictures;
+    std::vector<ShadowRow> shade_rows(size);
     tbb::parallel_for(std::size_t{0}, size, [&](std::size_t k) {
       pictures[k] = picture_of(cast.origins[begin + k], cast.rows[begin + k]);
+      shades[k] = shadow_of(cast.origins[begin + k], cast.rows[begin + k], shade_rows[k]);
     });
     std::vector<NamedBytes> files;
     for (std::size_t k = 0; k < size; ++k) {
       if (!pictures[k]) return pictures[k].error();
+      if (!shades[k]) return shades[k].error();
+      if (!shades[k]->empty()) {
+        shadows.push_back(shade_rows[k]);
+        files.push_back({shadow_path(project, shade_rows[k].sample), *shades[k]});
+      }
       files.push_back({project.sprite_path(cast.rows[begin + k].sample), *pictures[k]});
     }
     if (auto wrote = write_files(files); !wrote) return wrote.error();
@@ -229,6 +271,8 @@ Result<void> write_pictures(StageRun& run, const CastRows& cast) {
       run.listener.progress(kSegmented + (1 - kSegmented) * static_cast<double>(begin + size) /
                                              static_cast<double>(count));
   }
+  if (run.settings.shadow)
+    if (auto wrote = write_shadows(project, shadows); !wrote) return wrote;
   return sync_folder(project.path("sprites"));
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kChunkMagic = 0x32444559454B5356;  // "VSKEYED2"
+constexpr std::uint64_t kChunkMagic = 0x33444559454B5356;  // "VSKEYED3"
 constexpr int kLevel = 1;  // the files live for a minute: speed, not size
 
 void put_compressed(ByteWriter& writer, const std::vector<std::uint8_t>& bytes) {
@@ -32,6 +32,15 @@ bool get_compressed(ByteReader& reader, std::vector<std::uint8_t>& bytes, std::s
   return ZSTD_decompress(bytes.data(), size, packed.data(), packed.size()) == size;
 }
 
+bool get_shade(ByteReader& reader, KeyedFrame& frame) {
+  const Rect& cells = frame.shade_cells;
+  if (!reader.get(frame.shade_cells)) return false;
+  if (cells.width == 0) return true;
+  const auto count = static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
+  return get_compressed(reader, frame.shade, count) &&
+         get_compressed(reader, frame.shade_labels, count);
+}
+
 bool get_keyed(ByteReader& reader, KeyedFrame& frame) {
   std::uint32_t blobs = 0;
   if (!reader.get(frame.index) || !reader.get(frame.lost_before) || !reader.get(frame.crop) ||
@@ -42,7 +51,7 @@ bool get_keyed(ByteReader& reader, KeyedFrame& frame) {
   frame.straight.width = frame.crop.width;
   frame.straight.height = frame.crop.height;
   return get_compressed(reader, frame.straight.rgba, 4 * pixels) &&
-         get_compressed(reader, frame.labels, pixels);
+         get_compressed(reader, frame.labels, pixels) && get_shade(reader, frame);
 }
 
 std::string chunk_name(int chunk) {
@@ -73,6 +82,11 @@ std::string pack_keyed(const KeyedFrame& frame) {
   writer.put_array(std::span<const Blob>(frame.blobs));
   put_compressed(writer, frame.straight.rgba);
   put_compressed(writer, frame.labels);
+  writer.put(frame.shade_cells);
+  if (frame.shade_cells.width > 0) {
+    put_compressed(writer, frame.shade);
+    put_compressed(writer, frame.shade_labels);
+  }
   return std::move(writer).take();
 }
 

@@ -105,13 +105,19 @@ void draw_tick(Image& canvas, const std::vector<FilmRole>& roles,
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return roles[a].clip->ticks[tick].position.y < roles[b].clip->ticks[tick].position.y;
   });
-  for (const std::size_t r : order) {
-    const ClipTick& t = roles[r].clip->ticks[tick];
-    const Vec2 at = picture.place(t.position);
-    draw_sample(canvas, caches[r]->frame(t.sample), roles[r].sprite->samples()[t.sample],
-                {at.x - picture.origin.x, at.y - picture.origin.y},
-                {.scale = picture.scale(t.position)});
-  }
+  // Shadows lie on the ground: none falls on a sprite.
+  for (const bool is_shadow : {true, false})
+    for (const std::size_t r : order) {
+      const ClipTick& t = roles[r].clip->ticks[tick];
+      const Sprite& sprite = *roles[r].sprite;
+      const Vec2 place = picture.place(t.position);
+      const Vec2 at{place.x - picture.origin.x, place.y - picture.origin.y};
+      const DrawOptions options{.scale = picture.scale(t.position)};
+      if (is_shadow)
+        draw_shadow(canvas, sprite, t.sample, at, options);
+      else
+        draw_sample(canvas, caches[r]->frame(t.sample), sprite.samples()[t.sample], at, options);
+    }
 }
 
 }  // namespace

@@ -17,6 +17,8 @@ int image_side(double film_side, double scale) {
   return static_cast<int>(std::lround(film_side * scale));
 }
 
+}  // namespace
+
 void flip(Image& image) {
   for (int y = 0; y < image.height; ++y) {
     auto* row = reinterpret_cast<std::array<std::uint8_t, 4>*>(image.rgba.data()) +
@@ -24,8 +26,6 @@ void flip(Image& image) {
     std::reverse(row, row + image.width);
   }
 }
-
-}  // namespace
 
 // A mirrored sample has no picture of its own.
 Result<Image> read_sprite(const Project& project, const SampleRow& row) {

@@ -38,6 +38,9 @@ class PictureReader {
 /// Errors: CorruptData (missing, damaged, or of another size than its row says).
 Result<Image> read_sprite(const Project& project, const SampleRow& row);
 
+/// Exchanges left and right.
+void flip(Image& image);
+
 /// The pixels with alpha >= 128 lie in columns left..right - 1 and rows top..bottom - 1.
 struct OpaqueBox {
   int left = 0, top = 0, right = 0, bottom = 0;  ///< all 0 if there is none

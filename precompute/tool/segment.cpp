@@ -22,6 +22,7 @@
 #include "film/plate.h"
 #include "film/video.h"
 #include "tool/keyed.h"
+#include "tool/shadows.h"
 #include "tool/stages.h"
 
 namespace vsprite {
@@ -252,39 +253,57 @@ Result<Json> write_dropped(const StageRun& run, const KeyedStore& store, const F
   return pictures;
 }
 
-/// Everything in sprites/ goes; the folder stays.
+/// Everything in sprites/ goes, and all shadows; the folder stays.
 Result<void> clear_sprites(const Project& project) {
   const std::string folder = project.path("sprites");
   std::error_code error;
   fs::remove(project.path("samples.csv"), error);
   fs::remove_all(folder, error);
+  if (!error) remove_shadows(project);
   if (error)
     return Error{ErrorCode::CannotWrite, folder + ": cannot be removed: " + error.message()};
   return make_folder(folder);
 }
 
 /// Cuts the rows with the numbers `due`, all of one chunk, in parallel; writes them together.
+/// `shadows`: null, or gets a row for each that casts one.
 Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& frames,
-                       const Extraction& extraction, const std::vector<std::size_t>& due) {
+                       const Extraction& extraction, const std::vector<std::size_t>& due,
+                       std::vector<ShadowRow>* shadows) {
   using Png = Result<std::vector<std::uint8_t>>;
   std::vector<Png> pictures(due.size(), Png(std::vector<std::uint8_t>{}));
+  std::vector<Png> shades = pictures;
+  std::vector<ShadowRow> shade_rows(due.size());
   tbb::parallel_for(std::size_t{0}, due.size(), [&](std::size_t k) {
     const SampleRow& row = extraction.rows[due[k]];
     const int position = extraction.positions[due[k]];
     const auto& frame = frames[static_cast<std::size_t>(position % kChunkFrames)];
     pictures[k] = encode_png(cut_sample(frame, extraction.labels[due[k]], row));
+    if (shadows == nullptr) return;
+    const CutShadow shadow = cut_shadow(frame, extraction.labels[due[k]], row);
+    shade_rows[k] = row_of(row.sample, shadow);
+    if (shadow.image.width > 0) shades[k] = encode_png(shadow.image);
   });
   std::vector<NamedBytes> files;
   for (std::size_t k = 0; k < due.size(); ++k) {
     if (!pictures[k]) return pictures[k].error();
+    if (!shades[k]) return shades[k].error();
+    if (!shades[k]->empty()) {
+      shadows->push_back(shade_rows[k]);
+      files.push_back({shadow_path(project, shade_rows[k].sample), *shades[k]});
+    }
     files.push_back({project.sprite_path(extraction.rows[due[k]].sample), *pictures[k]});
   }
   return write_files(files);
 }
 
-/// Step 3: rows are in film order, so that every chunk is read once.
+/// Step 3: rows are in film order, so that every chunk is read once. With shadows all is cut.
 Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extraction& extraction,
                          bool resumed) {
+  const bool shaded = run.settings.shadow;
+  std::vector<ShadowRow> shadows;
+  if (shaded)
+    if (auto made = make_folder(run.project.path(kShadowFolder)); !made) return made.error();
   const auto& rows = extraction.rows;
   const auto chunk_of = [&](std::size_t row) { return extraction.positions[row] / kChunkFrames; };
   for (std::size_t begin = 0; begin < rows.size() && rows[begin].mirror_of < 0;) {
@@ -293,7 +312,7 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
     std::vector<std::size_t> due;
     for (; end < rows.size() && rows[end].mirror_of < 0 && chunk_of(end) == chunk; ++end) {
       std::error_code error;
-      if (!resumed || !fs::exists(run.project.sprite_path(rows[end].sample), error))
+      if (shaded || !resumed || !fs::exists(run.project.sprite_path(rows[end].sample), error))
         due.push_back(end);
     }
     if (!due.empty()) {
@@ -302,12 +321,16 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
         return Error{ErrorCode::CorruptData, run.project.path("keyed") + ": chunk " +
                                                  std::to_string(chunk) +
                                                  " was damaged meanwhile: run it again"};
-      if (auto cut = cut_chunk(run.project, *frames, extraction, due); !cut) return cut.error();
+      if (auto cut = cut_chunk(run.project, *frames, extraction, due, shaded ? &shadows : nullptr);
+          !cut)
+        return cut.error();
     }
     begin = end;
     report(run,
            kKeyed + (1 - kKeyed) * static_cast<double>(end) / static_cast<double>(rows.size()));
   }
+  if (shaded)
+    if (auto wrote = write_shadows(run.project, shadows); !wrote) return wrote;
   return sync_folder(run.project.path("sprites"));
 }
 
@@ -384,8 +407,11 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
     for (const std::string& note : notes_on(info)) run.listener.note(note);
   if (run.listener.note) run.listener.note("background: " + screen->reason);
   const bool keyed = screen->kind != KeyKind::None && screen->kind != KeyKind::Alpha;
-  if (run.listener.note && !keyed && *matte != MatteConfig{})
+  if (run.listener.note && !keyed && *matte != MatteConfig{.shadow = matte->shadow})
     run.listener.note("clip-black, clip-white, edge and despill change what is keyed: nothing is");
+
+  if (run.listener.note && !keyed && matte->shadow)
+    run.listener.note("shadow: nothing is keyed, so no background is known that a shadow darkens");
 
   const auto store = KeyedStore::open(run.project, origin);
   if (!store) return store.error();

@@ -164,6 +164,8 @@ void add_stage_options(Row& t) {
          "a coloured screen's tint: 0 stays, 1 goes where the subject nearby has none, 2 goes "
          "everywhere",
          kKeying);
+  t.flag("shadow", &Settings::shadow,
+         "the soft shadow that the subject casts too, as a picture below each sprite", kSegment);
   t.text("matte", "FILE", &Settings::matte,
          "film or pictures beside the film whose brightness is the coverage: nothing is keyed",
          kKeying);
@@ -539,6 +541,7 @@ Result<MatteConfig> matte_of(const Settings& settings) {
   config.clip_white = static_cast<float>(settings.clip_white);
   config.edge = static_cast<float>(settings.edge);
   config.despill = static_cast<float>(settings.despill);
+  config.shadow = settings.shadow;
   return config;
 }
 

@@ -36,6 +36,7 @@ struct Settings {
   double clip_white = 1;
   double edge = 0;  ///< px
   double despill = 1;
+  bool shadow = false;
   std::string matte;  ///< a film or pictures whose brightness is the coverage; empty: none
   double fps = 30;    ///< of pictures
   int max_size = 256;

@@ -14,6 +14,7 @@
 #include "control/flip.h"
 #include "tool/cast.h"
 #include "tool/cast_file.h"
+#include "tool/shadows.h"
 #include "tool/tiles.h"
 #include "tool/train.h"
 
@@ -92,7 +93,13 @@ Result<Json> segment(StageRun& run) {
   return segment_film(run, hex64(hash_bytes(origin.dump())));
 }
 
-Result<std::string> segment_output(StageRun& run) { return run.project.sprites_sum(); }
+Result<std::string> segment_output(StageRun& run) {
+  auto sum = run.project.sprites_sum();
+  if (!sum || !has_shadows(run.project)) return sum;
+  const auto shadows = shadows_sum(run.project);
+  if (!shadows) return shadows.error();
+  return *sum + *shadows;
+}
 
 // ---- train ----
 
@@ -267,7 +274,12 @@ Result<StageKey> pack_key(StageRun& run) {
   std::vector<const char*> inputs{"sprites", "transitions.bin", "values.bin"};
   for (const char* name : {"puppets.bin", "puppet_sets.bin"})
     if (std::filesystem::exists(run.project.path(name))) inputs.push_back(name);
-  return key_of(run, "pack", settings, inputs);
+  auto key = key_of(run, "pack", settings, inputs);
+  if (!key || !has_shadows(run.project)) return key;
+  const auto shadows = shadows_sum(run.project);
+  if (!shadows) return shadows.error();
+  key->inputs["shadows"] = *shadows;
+  return key;
 }
 
 Result<std::string> pack_output(StageRun& run) {
@@ -383,7 +395,7 @@ Result<StageOutcome> run_stage(StageRun& run, int index) {
 }  // namespace
 
 Json segment_settings(const Settings& s) {
-  return {
+  Json settings = {
       {"key", s.key},         {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
       {"draft", s.draft},     {"subject", s.subject},
       {"anchor", s.anchor},   {"mirror", s.mirror},
@@ -392,6 +404,8 @@ Json segment_settings(const Settings& s) {
       {"focal", s.focal},     {"clip-black", s.clip_black},
       {"edge", s.edge},       {"clip-white", s.clip_white},
       {"despill", s.despill}};
+  if (s.shadow) settings["shadow"] = true;
+  return settings;
 }
 
 TransitionConfig transition_config(const Settings& settings) {

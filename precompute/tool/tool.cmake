@@ -38,6 +38,7 @@ target_sources(vsprite_precompute PRIVATE
   tool/scene_script.cpp
   tool/segment.cpp
   tool/settings.cpp
+  tool/shadows.cpp
   tool/tiles.cpp
   tool/stages.cpp
   tool/train.cpp

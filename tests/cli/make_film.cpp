@@ -5,6 +5,7 @@
 // in well under a second.
 //
 //   circle  a soft comet swims in circles before an uneven, desaturated, noisy blue: every heading
+//   shadow  the same, and a soft shadow below it takes two fifths of the light
 //   line    the same comet swims to the right, leaves and comes back: one heading
 //   two     two comets of one size
 //   blank   the screen, and nobody there
@@ -48,7 +49,7 @@ Comet circling(double x, double y, double radius, double phase) {
 
 std::vector<Comet> comets(const std::string& kind, int frame) {
   const double phase = kTurn * (frame % kPeriod) / kPeriod;
-  if (kind == "circle") return {circling(80, 60, 34, phase)};
+  if (kind == "circle" || kind == "shadow") return {circling(80, 60, 34, phase)};
   if (kind == "two") return {circling(42, 60, 15, phase), circling(118, 60, 15, phase + 2)};
   if (kind == "line") return {{-40.0 + 240.0 * (frame % kPeriod) / kPeriod, 60, 0}};
   return {};
@@ -136,14 +137,23 @@ void draw_figure(const std::string& kind, int frame, double scale, double exposu
   }
 }
 
-void draw(const std::vector<Comet>& subject, std::uint32_t& noise, std::vector<std::uint8_t>& rgb) {
+/// What is left of a code value where a comet's shadow takes `dark` of the light.
+double shade(const Comet& comet, double dark, double x, double y) {
+  const double r = std::hypot((x - comet.x - 4) / 14, (y - comet.y - 14) / 8);
+  return std::pow(1 - dark * std::clamp(1.5 - r, 0.0, 1.0), 1 / 2.2);
+}
+
+void draw(const std::vector<Comet>& subject, double dark, std::uint32_t& noise,
+          std::vector<std::uint8_t>& rgb) {
   std::size_t at = 0;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const double uneven = 6 * std::sin(x / 50.0) + 4 * std::cos(y / 40.0);
       double alpha = 0;
       for (const Comet& comet : subject) alpha = std::max(alpha, coverage(comet, x + 0.5, y + 0.5));
-      const double front[3] = {230, 150, 40}, back[3] = {70 + uneven, 95 + uneven, 150 + uneven};
+      const double lit = dark > 0 ? shade(subject[0], dark, x + 0.5, y + 0.5) : 1;
+      const double front[3] = {230, 150, 40},
+                   back[3] = {lit * (70 + uneven), lit * (95 + uneven), lit * (150 + uneven)};
       for (int c = 0; c < 3; ++c) {
         noise = noise * 1664525u + 1013904223u;
         const double grain = static_cast<double>(noise >> 24) / 64 - 2;
@@ -177,7 +187,7 @@ int main(int argc, char** argv) {
     if (is_figure(kind))
       draw_figure(kind, frame, scale, exposure, rate, noise, rgb);
     else
-      draw(comets(kind, frame), noise, rgb);
+      draw(comets(kind, frame), kind == "shadow" ? 0.4 : 0, noise, rgb);
     if (std::fwrite(rgb.data(), 1, rgb.size(), pipe) != rgb.size()) return ::pclose(pipe), 1;
   }
   return ::pclose(pipe) == 0 ? 0 : 1;

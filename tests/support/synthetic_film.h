@@ -27,6 +27,7 @@ struct SyntheticFilm {
   double subject[3] = {225, 120, 40};  ///< R G B, code values
   double noise = 2;                    ///< largest deviation, code values
   double softness = 3;                 ///< px over which the edge goes from 0 to 1
+  double shade = 0;                    ///< of the shadow below each disc, 0..1
 
   static double linear(double code) {
     const double v = code / 255;
@@ -42,6 +43,12 @@ struct SyntheticFilm {
     const double v = (y + 0.5 - disc.y) / disc.high;
     const double r = std::sqrt(u * u + v * v);
     return std::clamp(0.5 + (1 - r) * std::min(disc.wide, disc.high) / softness, 0.0, 1.0);
+  }
+  /// Of the light that reaches the plate, what a disc takes.
+  double shade_at(const Disc& disc, int x, int y) const {
+    const double u = (x + 0.5 - disc.x - 0.4 * disc.wide) / disc.wide;
+    const double v = (y + 0.5 - disc.y - disc.high) / (0.7 * disc.high);
+    return shade * std::clamp(2 - 2 * std::sqrt(u * u + v * v), 0.0, 1.0);
   }
   /// The plate without noise: light falls off to the right and to the lower edge.
   double plate(int channel, int x, int y) const {
@@ -60,9 +67,13 @@ struct SyntheticFilm {
         state = state * 1664525u + 1013904223u;
         const double wobble = noise * (static_cast<double>(state >> 8) / (1 << 23) - 1);
         double a = 0;
-        for (const Disc& disc : discs) a = std::max(a, alpha(disc, x, y));
+        double light = 1;
+        for (const Disc& disc : discs) {
+          a = std::max(a, alpha(disc, x, y));
+          light *= 1 - shade_at(disc, x, y);
+        }
         for (int c = 0; c < 3; ++c) {
-          const double mixed = a * linear(subject[c]) + (1 - a) * linear(plate(c, x, y));
+          const double mixed = a * linear(subject[c]) + (1 - a) * light * linear(plate(c, x, y));
           made.rgba[static_cast<std::size_t>(4 * (y * width + x) + c)] =
               static_cast<std::uint8_t>(std::clamp(code(mixed) + wobble + 0.5, 0.0, 255.0));
         }
