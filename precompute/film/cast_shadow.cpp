@@ -3,6 +3,7 @@
 #include "film/cast_shadow.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "film/grid.h"
 #include "film/lanes.h"
@@ -13,7 +14,7 @@ namespace vsprite::detail {
 namespace {
 
 constexpr float kLeast = 0.03f;            // shade below this is none ...
-constexpr float kNoises = 1.5f;            // ... and below this many sigma of a cell's noise
+constexpr float kNoises = 4;               // ... and below this many sigma of s nearby
 constexpr float kStrong = 2.5f;            // times that: what makes a part a shadow
 constexpr float kOffLine = 0.12f;          // |C - sB| / |sB| that is still the plate's colour
 constexpr float kDarkest = 0.35f;          // s: what is darker is a thing
@@ -21,6 +22,11 @@ constexpr double kReach = 1, kNear = 0.5;  // of the body: looked at, and belong
 constexpr int kBlurs = 2;                  // passes of 3 x 3
 constexpr int kRim = 1;                    // cells at the subject that hold some of it
 constexpr int kBehind = 4;                 // cells that the shade is carried on behind it
+
+// In a matte.
+constexpr float kThin = 0.6f;      // alpha below it may be shade
+constexpr float kTelling = 0.25f;  // of the plate: how far off its line the subject has to be
+constexpr float kNone = 0.1f, kSome = 0.25f;  // coverage that the colour off the line speaks for
 
 // The cells about all parts.
 Window window_of(const Frame& frame, std::span<const Blob> blobs) {
@@ -55,7 +61,7 @@ std::vector<std::uint8_t> labels_of(const KeyedFrame& keyed, const Window& windo
 
 // Frame and plate in linear light; the plate with the frame's drift.
 struct Light {
-  std::vector<float> frame[3], plate[3], noise;  // noise: sigma of s in one cell
+  std::vector<float> frame[3], plate[3];
 };
 
 Light light_of(const ScreenModel& screen, const Frame& frame, const Window& window) {
@@ -66,7 +72,6 @@ Light light_of(const ScreenModel& screen, const Frame& frame, const Window& wind
   const Surface drift = fit_drift(screen, frame, screen.threshold);
   const RowScale u = scale_of(window.left, frame.cell_width());
   const std::size_t n = window.cells();
-  out.noise.resize(n);
   for (int p = 0; p < 3; ++p) {
     out.frame[p].resize(n);
     out.plate[p].resize(n);
@@ -83,9 +88,6 @@ Light light_of(const ScreenModel& screen, const Frame& frame, const Window& wind
       lanes().shift(screen.linear[p].data() + from, screen.slope[p].data() + from,
                     row_of(drift, p, v), u, window.width, out.plate[p].data() + at);
     }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(window.width); ++i)
-      out.noise[at + i] =
-          screen.noise[0] * screen.slope[1][from + i] / std::max(out.plate[1][at + i], 1e-4f);
   }
   return out;
 }
@@ -101,32 +103,45 @@ void smooth(const std::vector<std::uint8_t>& free, const Window& window,
   }
 }
 
-// 1 - s where that is on the plate's line and stands out, else 0. `strong`: well out of the noise.
+// Off the line of the plate (r, g, b of it), squared; `s`: along it.
+float off_line(const float (&color)[3], const float (&plate)[3], float& s) {
+  float bb = 0, cb = 0, off = 0;
+  for (int p = 0; p < 3; ++p) bb += plate[p] * plate[p], cb += color[p] * plate[p];
+  s = cb / std::max(bb, 1e-12f);
+  for (int p = 0; p < 3; ++p) {
+    const float rest = color[p] - s * plate[p];
+    off += rest * rest;
+  }
+  return off;
+}
+
+// 1 - s where that is on the plate's line and stands out, else 0. `strong`: well out of the noise,
+// which is the usual |1 - s| of the neighbourhood: most of it lies bare.
 std::vector<float> shade_of(Light& light, const Window& window,
                             const std::vector<std::uint8_t>& free, Mask& strong) {
   for (int p = 0; p < 3; ++p) {
     smooth(free, window, light.frame[p]);
     smooth(free, window, light.plate[p]);
   }
-  std::vector<float> shade(window.cells(), 0.0f);
+  std::vector<float> shade(window.cells(), 0.0f), off;
   for (std::size_t i = 0; i < shade.size(); ++i) {
     if (!free[i]) continue;
-    float bb = 0, cb = 0, off = 0;
-    for (int p = 0; p < 3; ++p) {
-      bb += light.plate[p][i] * light.plate[p][i];
-      cb += light.frame[p][i] * light.plate[p][i];
-    }
-    const float s = cb / std::max(bb, 1e-12f);
-    for (int p = 0; p < 3; ++p) {
-      const float rest = light.frame[p][i] - s * light.plate[p][i];
-      off += rest * rest;
-    }
-    if (s < kDarkest || off > kOffLine * kOffLine * s * s * bb) continue;
-    const float least = std::max(kLeast, kNoises * light.noise[i]);
-    const float dark = 1 - s;
-    if (dark <= least) continue;
-    shade[i] = dark * std::min((dark - least) / least, 1.0f);
+    const float color[3] = {light.frame[0][i], light.frame[1][i], light.frame[2][i]};
+    const float plate[3] = {light.plate[0][i], light.plate[1][i], light.plate[2][i]};
+    const float bb = plate[0] * plate[0] + plate[1] * plate[1] + plate[2] * plate[2];
+    float s = 0;
+    const float rest = off_line(color, plate, s);
+    off.push_back(std::abs(1 - s));
+    if (s > kDarkest && rest < kOffLine * kOffLine * s * s * bb) shade[i] = std::max(1 - s, 0.0f);
+  }
+  if (off.empty()) return shade;
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  const float least = std::max(kLeast, kNoises * 1.48f * *middle);
+  for (std::size_t i = 0; i < shade.size(); ++i) {
+    const float dark = shade[i];
     strong.in[i] = dark > kStrong * least ? 1 : 0;
+    shade[i] = dark * std::clamp((dark - least) / least, 0.0f, 1.0f);
   }
   return shade;
 }
@@ -220,6 +235,23 @@ void cut_out(const Window& window, const std::vector<float>& shade,
 }
 
 }  // namespace
+
+void leave_to_shadow(Patch& patch) {
+  for (std::size_t i = 0; i < patch.cells(); ++i) {
+    float& alpha = patch.alpha[i];
+    if (!(alpha > 0) || alpha > kThin || patch.seeds.in[i]) continue;
+    float color[3], plate[3], mean[3], s = 0, of_mean = 0, bb = 0;
+    for (int p = 0; p < 3; ++p) {
+      color[p] = patch.frame[p][i], plate[p] = patch.plate[p][i], mean[p] = patch.mean[p][i];
+      bb += plate[p] * plate[p];
+    }
+    const float subject = off_line(mean, plate, of_mean);
+    const float here = off_line(color, plate, s);
+    if (subject < kTelling * kTelling * bb || s < kDarkest || s > 1 - kStrong * kLeast) continue;
+    const float covered = std::sqrt(here / subject);
+    alpha *= std::clamp((covered - kNone) / (kSome - kNone), 0.0f, 1.0f);
+  }
+}
 
 void measure_shadow(const ScreenModel& screen, const Frame& frame, KeyedFrame& keyed) {
   if (keyed.blobs.empty()) return;

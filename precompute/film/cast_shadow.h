@@ -10,8 +10,14 @@
 #pragma once
 
 #include "film/matte.h"
+#include "film/unmix.h"
 
 namespace vsprite::detail {
+
+/// Takes out of the matte what is shade beside the subject: a thin cover of nothing but plate in
+/// shade, where the subject nearby is of another colour. A subject that is black, or as grey as its
+/// background, tells it from its own soft edge by nothing, and keeps it.
+void leave_to_shadow(Patch& patch);
 
 /// Fills the shade of a frame whose parts have been found. Behind the subject it is carried on for
 /// some cells, so that no light rim shows through a soft edge; further in it is 0. Cost: as many

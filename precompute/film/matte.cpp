@@ -607,6 +607,7 @@ KeyedFrame Keyer::key(const Frame& frame, const Frame* before) {
     if (k.silhouette.empty) return result;
     detail::cut_patch(*k.screen, k.silhouette, k.patch);
     detail::unmix(*k.screen, k.patch);
+    if (k.config.shadow) detail::leave_to_shadow(k.patch);
     k.place(frame);
     k.measure_detail(frame);
     k.measure_guide();
