@@ -395,7 +395,7 @@ Result<StageOutcome> run_stage(StageRun& run, int index) {
 }  // namespace
 
 Json segment_settings(const Settings& s) {
-  Json settings = {
+  return {
       {"key", s.key},         {"max-size", s.draft ? std::min(s.max_size, kDraftSize) : s.max_size},
       {"draft", s.draft},     {"subject", s.subject},
       {"anchor", s.anchor},   {"mirror", s.mirror},
@@ -403,9 +403,7 @@ Json segment_settings(const Settings& s) {
       {"horizon", s.horizon}, {"ground-line", s.ground_line},
       {"focal", s.focal},     {"clip-black", s.clip_black},
       {"edge", s.edge},       {"clip-white", s.clip_white},
-      {"despill", s.despill}};
-  if (s.shadow) settings["shadow"] = true;
-  return settings;
+      {"despill", s.despill}, {"shadow", s.shadow}};
 }
 
 TransitionConfig transition_config(const Settings& settings) {

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
-# feet.py WORK : how far the anchor of every sprite of a work folder lies from its feet, the lower end of its lowest row
-# with half coverage, px of the sprite. Fails where that is more than one.
+# feet.py WORK : how far the anchor of every sprite of a work folder lies from its feet, px of the sprite. Fails where that
+# is more than one. The feet are the lowest end of a column: its last full pixel, and the coverage below it.
 import csv, struct, sys, zlib
 
 
@@ -31,12 +31,21 @@ def alphas(path):
     return rows
 
 
+def feet_of(rows):
+    lowest = 0
+    for column in zip(*rows):
+        full = max((y for y, a in enumerate(column) if a >= 250), default=None)
+        if full is not None:
+            lowest = max(lowest, full + 1 + sum(column[full + 1:]) / 255)
+    return lowest
+
+
 worst, count = (0, None), 0
 for row in csv.DictReader(open(sys.argv[1] + "/samples.csv")):
     if int(row["mirror_of"]) >= 0:
         continue
     rows = alphas("%s/sprites/%06d.png" % (sys.argv[1], int(row["sample"])))
-    feet = 1 + max(y for y, line in enumerate(rows) if max(line) >= 128)
+    feet = feet_of(rows)
     anchor = (float(row["anchor_y"]) - float(row["top"])) * float(row["scale"])
     worst = max(worst, (abs(feet - anchor), row["sample"]))
     count += 1

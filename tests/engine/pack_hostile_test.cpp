@@ -15,6 +15,7 @@
 #include "support/naive_actions.h"
 #include "support/pack_bytes.h"
 #include "vsprite/actor.h"
+#include "vsprite/compose.h"
 
 namespace vsprite {
 namespace {
@@ -413,6 +414,28 @@ std::vector<Hostile> block_packs() {
   };
 }
 
+// The tiny sprite with a filmed shadow.
+std::vector<Hostile> shadow_packs() {
+  const testing::TempFolder folder;
+  SpriteData data = testing::tiny_sprite_data();
+  const std::string path = folder.file("tiny.vsp");
+  const auto picture = [&](std::uint32_t i) -> Result<Image> {
+    return testing::tiny_picture(data, i);
+  };
+  EXPECT_TRUE(add_shadow(data, 1, make_image(6, 4, 0, 0, 0, 128), {3, 1}));
+  EXPECT_TRUE(save_pack(path, data, picture));
+  const ByteVector whole = testing::read_bytes(path);
+  const auto damaged = [&](const EditParts& edit) { return damage_section(edit, whole); };
+  return {
+      {"shadow-size", "too many", damaged([](auto& p) { p["SHDW"].bytes.push_back(0); })},
+      {"shadow-size", "are left", damaged([](auto& p) { p["SHDW"].bytes.pop_back(); })},
+      {"shadow-value", "a scale above 0", damaged(set("SHDW", 4, 0.0f))},
+      {"shadow-sample", "kept ones", damaged(set("SHDW", 8, 0xFFFFFFu))},
+      {"shadow-picture", "not a black picture", damaged(set("SHDW", 32, std::uint8_t{0xFF})), true},
+      {"section-twice", "more than once", damaged([](auto& p) { p.parts.push_back(p["SHDW"]); })},
+  };
+}
+
 void expect_refused(const Hostile& hostile) {
   SCOPED_TRACE(std::string(hostile.code) + ": " + hostile.message);
   const auto issues = testing::verify_bytes(hostile.bytes);
@@ -434,8 +457,9 @@ void expect_refused(const Hostile& hostile) {
 }
 
 using HostileList = std::vector<Hostile> (*)();
-constexpr HostileList kLists[] = {header_packs, meta_packs,    sample_packs, transition_packs,
-                                  mode_packs,   picture_packs, acting_packs, block_packs};
+constexpr HostileList kLists[] = {header_packs,     meta_packs,  sample_packs,
+                                  transition_packs, mode_packs,  picture_packs,
+                                  acting_packs,     block_packs, shadow_packs};
 
 class HostilePack : public ::testing::TestWithParam<HostileList> {};
 TEST_P(HostilePack, IsRefusedWithItsOwnCode) {
