@@ -63,7 +63,7 @@ std::array<int, 8> alpha_steps(int first, int second) {
 struct Ends {
   std::array<std::array<int, 3>, 2> of{};  ///< red, green, blue in 5, 6, 5 bits
 };
-constexpr std::array<int, 3> kMost{31, 63, 31};
+constexpr std::array<int, 3> kLargest{31, 63, 31};
 
 int expand_bits(int value, std::size_t channel) {
   return channel == 1 ? value << 2 | value >> 4 : value << 3 | value >> 2;
@@ -110,7 +110,7 @@ ColourFit fit_steps(const Texels& texels, const Ends& ends) {
 }
 
 int quantise(float value, std::size_t channel) {
-  const auto most = static_cast<float>(kMost[channel]);
+  const auto most = static_cast<float>(kLargest[channel]);
   return static_cast<int>(std::clamp(value / 255.0f * most + 0.5f, 0.0f, most));
 }
 
@@ -190,7 +190,7 @@ void search_about(const Texels& texels, ColourFit& fit) {
       for (const int way : {-1, 1}) {
         Ends ends = fit.ends;
         ends.of[end][c] += way;
-        if (ends.of[end][c] < 0 || ends.of[end][c] > kMost[c] || fit.error == 0) continue;
+        if (ends.of[end][c] < 0 || ends.of[end][c] > kLargest[c] || fit.error == 0) continue;
         const ColourFit moved = fit_steps(texels, ends);
         if (moved.error < fit.error) fit = moved;
       }
