@@ -83,7 +83,7 @@ void fill_records(const SpriteData& data, const ControlMode& mode, TickTable& ta
   std::array<UnitVector, kMaxHeadings> headings{};
   for (std::uint32_t g = 0; g < mode.headings; ++g)
     headings[g] = heading_vector(g * (kMaxHeadings / mode.headings));
-  std::uint32_t* at = table.lines[0].words + first * table.stride();
+  std::uint32_t* at = reinterpret_cast<std::uint32_t*>(table.lines.get()) + first * table.stride();
   for_each_sample(mode, n, first, last, [&](std::uint32_t i, const std::uint32_t* next) {
     const Sample& sample = data.samples[i];
     const Leaving from = leaving(data, mode, i);

@@ -44,7 +44,7 @@ struct TickTable {
 
   std::size_t stride() const noexcept { return std::size_t{groups} * words; }
   const std::uint32_t* record(std::uint32_t sample, std::uint32_t group) const noexcept {
-    const auto* first = lines[0].words;
+    const auto* first = reinterpret_cast<const std::uint32_t*>(lines.get());
     return first + sample * stride() + group * words;
   }
 };
