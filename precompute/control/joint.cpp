@@ -41,11 +41,13 @@ double arrival_angle(Vec2 velocity, double v0, double fast, int h, const JointCo
 struct Problem {
   const Edges& edges;
   const JointConfig& config;
+  const Spread& spread;
   std::size_t groups = 0, blocks = 0;
   std::uint32_t served = 0;
   double rho = 0;
-  std::vector<LaneFloats> angle;                 // a block: a_j(l)
+  std::vector<LaneFloats> angle;                 // a block: a_j(l); of own blocks
   std::vector<std::vector<std::uint8_t>> exits;  // a block: bit lane, j has turned
+  std::size_t heading_blocks() const { return static_cast<std::size_t>(config.headings) / kLanes; }
   bool is_heading(std::size_t group) const {
     return group < static_cast<std::size_t>(config.headings);
   }
@@ -59,7 +61,8 @@ void fill_block(Problem& problem, const Motion& motion, double fast, std::size_t
   const std::size_t n = motion.velocities.size();
   LaneFloats& angle = problem.angle[b];
   std::vector<std::uint8_t>& exits = problem.exits[b];
-  angle.assign(n * kLanes, 0);
+  const bool own = problem.spread.owns(b);
+  if (own) angle.assign(n * kLanes, 0);
   exits.assign(n, 0);
   for (std::size_t j = 0; j < n; ++j) {
     const Vec2 v = motion.velocities[j];
@@ -69,8 +72,9 @@ void fill_block(Problem& problem, const Motion& motion, double fast, std::size_t
       const std::size_t group = b * kLanes + lane;
       if (group >= problem.groups) break;
       const int h = static_cast<int>(group);
-      angle[j * kLanes + lane] =
-          static_cast<float>(arrival_angle(v, motion.v0, fast, h, problem.config));
+      if (own)
+        angle[j * kLanes + lane] =
+            static_cast<float>(arrival_angle(v, motion.v0, fast, h, problem.config));
       const bool turned =
           !problem.is_heading(group) ||
           (speed > kMovingShare * motion.v0 &&
@@ -86,19 +90,26 @@ class Expectation {
   Expectation(const Problem& problem, std::size_t samples)
       : problem_(problem), sum_(samples, 0), count_(std::popcount(problem.served)) {}
 
-  // Sums V^turn over the served headings; returns the largest relative change.
-  double update(const std::vector<Lanes>& turning) {
+  // Sums V^turn over the served headings, block by block in every process; returns the largest
+  // relative change.
+  double update(std::vector<Lanes>& turning) {
+    before_.assign(sum_.size(), 0);
+    before_.swap(sum_);
+    for (std::size_t b = 0; b < problem_.heading_blocks(); ++b) {
+      LaneDoubles& values = problem_.spread.owns(b) ? turning[b].values : received_;
+      values.resize(sum_.size() * kLanes);
+      problem_.spread.share_block(b, std::span(values));
+      const std::uint32_t served = problem_.served >> b * kLanes & 0xFFu;
+      for (std::size_t j = 0; j < sum_.size(); ++j) {
+        for (std::uint32_t left = served; left != 0; left &= left - 1)
+          sum_[j] += values[j * kLanes + static_cast<std::size_t>(std::countr_zero(left))];
+      }
+    }
     double change = 0, largest = 1;
     for (std::size_t j = 0; j < sum_.size(); ++j) {
-      double sum = 0;
-      for (std::size_t h = 0; h < static_cast<std::size_t>(problem_.config.headings); ++h) {
-        if ((problem_.served >> h & 1u) != 0)
-          sum += turning[h / kLanes].values[j * kLanes + h % kLanes];
-      }
-      if (!std::isfinite(sum)) sum = 0;
-      change = std::max(change, std::fabs(sum - sum_[j]));
-      largest = std::max(largest, std::fabs(sum));
-      sum_[j] = sum;
+      if (!std::isfinite(sum_[j])) sum_[j] = 0;
+      change = std::max(change, std::fabs(sum_[j] - before_[j]));
+      largest = std::max(largest, std::fabs(sum_[j]));
     }
     return change / largest;
   }
@@ -111,7 +122,8 @@ class Expectation {
 
  private:
   const Problem& problem_;
-  std::vector<double> sum_;
+  std::vector<double> sum_, before_;
+  LaneDoubles received_;
   int count_;
 };
 
@@ -143,6 +155,7 @@ class JointSolver {
         cruising_(problem.blocks),
         turning_(problem.blocks) {
     for (std::size_t b = 0; b < problem.blocks; ++b) {
+      if (!problem.spread.owns(b)) continue;
       for (Lanes* lanes : {&cruising_[b], &turning_[b]}) {
         lanes->discount = problem.config.alpha * (1 - problem.rho);
         start(problem.edges, *lanes);
@@ -153,39 +166,53 @@ class JointSolver {
   }
 
   void solve() {
-    const std::size_t heading_blocks = static_cast<std::size_t>(problem_.config.headings) / kLanes;
+    const std::size_t heading_blocks = problem_.heading_blocks();
     for (int round = 0; round < kMaxRounds; ++round) {
       std::vector<std::size_t> changed(heading_blocks, 0);
-      tbb::parallel_for(std::size_t{0}, heading_blocks,
-                        [&](std::size_t b) { changed[b] = improve_both(b); });
+      each_own(heading_blocks, [&](std::size_t b) { changed[b] = improve_both(b); });
+      for (std::size_t b = 0; b < heading_blocks; ++b)
+        problem_.spread.share_block(b, std::span(changed).subspan(b, 1));
       const bool same = std::all_of(changed.begin(), changed.end(), [](auto c) { return c == 0; });
       if (same && settled_) break;
       // A policy's M is found by evaluations alone; roughly, while policies still change.
       for (int k = 0; k < (same ? kMaxRounds : 2); ++k) {
-        tbb::parallel_for(std::size_t{0}, heading_blocks, [&](std::size_t b) { evaluate_both(b); });
+        each_own(heading_blocks, [&](std::size_t b) { evaluate_both(b); });
         settled_ = problem_.rho == 0 || expectation_.update(turning_) < kSettled;
         if (settled_) break;
       }
     }
     // None and rest are never expected, so they come after.
     const std::size_t last = problem_.blocks - 1;
+    if (!problem_.spread.owns(last)) return;
     for (int round = 0; round < kMaxRounds && improve_both(last) > 0; ++round) evaluate_both(last);
   }
 
-  // Tables, cost to go and the certificate, all from V as stored.
-  void write(Solution& solution) const {
+  // Tables, cost to go and the certificate, all from V as stored, which is what it keeps.
+  void write(Solution& solution) {
     const std::size_t n = problem_.edges.size();
-    std::vector<Lanes> stored_c = rounded(cruising_), stored_t = rounded(turning_);
-    Expectation expectation(problem_, n);
-    expectation.update(stored_t);
-    std::vector<double> residuals(2 * problem_.blocks, 0);
-    tbb::parallel_for(std::size_t{0}, 2 * problem_.blocks, [&](std::size_t k) {
-      residuals[k] = write_phase(k / 2, k % 2 == 1, stored_c, stored_t, expectation, solution);
-    });
-    solution.mode.residual = *std::max_element(residuals.begin(), residuals.end());
+    round_to_stored(cruising_);
+    round_to_stored(turning_);
+    if (problem_.rho > 0) expectation_.update(turning_);
+    std::vector<double> residuals(problem_.blocks, 0), turning = residuals;
+    const auto write_one = [&](std::size_t k) {
+      const std::size_t b = k / 2;
+      (k % 2 == 1 ? turning : residuals)[b] =
+          write_phase(b, k % 2 == 1, detail::tables_of(solution, problem_.spread, b, n));
+    };
+    each_own(problem_.blocks, write_one, 2);
+    for (std::size_t b = 0; b < problem_.blocks; ++b)
+      residuals[b] = std::max(residuals[b], turning[b]);
+    detail::gather_blocks(solution, problem_.spread, residuals, n);
   }
 
  private:
+  // `work` gets the blocks, or of each block the phases, that are this process's.
+  template <class Work>
+  void each_own(std::size_t count, const Work& work, std::size_t phases = 1) {
+    tbb::parallel_for(std::size_t{0}, count * phases, [&](std::size_t k) {
+      if (problem_.spread.owns(k / phases)) work(k);
+    });
+  }
   void refresh(std::size_t b) {
     fill_arrive(problem_, expectation_, b, false, &turning_[b].values, cruising_[b].arrive);
     fill_arrive(problem_, expectation_, b, true, &turning_[b].values, turning_[b].arrive);
@@ -205,27 +232,27 @@ class JointSolver {
     evaluate(problem_.edges, turning_[b]);
   }
 
-  static std::vector<Lanes> rounded(const std::vector<Lanes>& lanes) {
-    std::vector<Lanes> out(lanes.size());
-    for (std::size_t b = 0; b < lanes.size(); ++b) {
-      out[b].values = lanes[b].values;
-      for (double& v : out[b].values) v = static_cast<double>(static_cast<float>(v));
+  // The rest of the lanes has done its work.
+  static void round_to_stored(std::vector<Lanes>& lanes) {
+    for (Lanes& block : lanes) {
+      LaneDoubles values = std::move(block.values);
+      for (double& v : values) v = static_cast<double>(static_cast<float>(v));
+      block = {};
+      block.values = std::move(values);
     }
-    return out;
   }
 
-  double write_phase(std::size_t b, bool turn, const std::vector<Lanes>& cruising,
-                     const std::vector<Lanes>& turning, const Expectation& expectation,
-                     Solution& solution) const {
+  double write_phase(std::size_t b, bool turn, const detail::BlockTables& tables) const {
+    const LaneDoubles &cruising = cruising_[b].values, &turning = turning_[b].values;
     const std::size_t n = problem_.edges.size();
     const double alpha = problem_.config.alpha, rho = problem_.rho;
     LaneDoubles go(n * kLanes, 0), best;
     for (std::size_t at = 0; at < go.size(); ++at) {
       const std::size_t j = at / kLanes, lane = at % kLanes, group = b * kLanes + lane;
-      if (group >= problem_.groups || !std::isfinite(turning[b].values[at])) continue;
+      if (group >= problem_.groups || !std::isfinite(turning[at])) continue;
       const bool cruises = !turn || (problem_.exits[b][j] >> lane & 1) != 0;
-      const double behind = cruises ? cruising[b].values[at] : turning[b].values[at];
-      const double expected = rho > 0 ? rho * expectation.mean(group, j, turning[b].values[at]) : 0;
+      const double behind = cruises ? cruising[at] : turning[at];
+      const double expected = rho > 0 ? rho * expectation_.mean(group, j, turning[at]) : 0;
       go[at] = problem_.weight(group, turn) * static_cast<double>(problem_.angle[b][at]) +
                alpha * ((1 - rho) * behind + expected);
     }
@@ -233,14 +260,14 @@ class JointSolver {
     best_of_rows(problem_.edges, go, best, next);
     double residual = 0;
     for (std::size_t lane = 0; lane < kLanes && b * kLanes + lane < problem_.groups; ++lane) {
-      const std::size_t table = ((b * kLanes + lane) * 2 + (turn ? 1 : 0)) * n;
+      const std::size_t table = (lane * 2 + (turn ? 1 : 0)) * n;
       for (std::size_t i = 0; i < n; ++i) {
         const std::size_t at = i * kLanes + lane;
-        const double value = (turn ? turning : cruising)[b].values[at];
+        const double value = (turn ? turning : cruising)[at];
         const bool kept = std::isfinite(best[at]);
-        solution.values[table + i] = static_cast<float>(value);
-        solution.mode.next[table + i] = next[at];
-        solution.mode.go[table + i] = kept ? static_cast<float>(go[at]) : 0;
+        tables.values[table + i] = static_cast<float>(value);
+        tables.next[table + i] = next[at];
+        tables.go[table + i] = kept ? static_cast<float>(go[at]) : 0;
         if (kept) residual = std::max(residual, std::fabs(best[at] - value));
       }
     }
@@ -323,7 +350,8 @@ double fast_speed(std::span<const Vec2> velocities, double v0) {
 }
 
 Result<Solution> solve_joint(const CostTable& costs, const Motion& motion,
-                             const JointConfig& config, std::uint32_t served, int jobs) {
+                             const JointConfig& config, std::uint32_t served, int jobs,
+                             const Spread& spread) {
   if (auto ok = check_settings(config); !ok) return ok.error();
   if (auto ok = detail::check_graph(costs, motion.velocities.size(), motion.v0); !ok)
     return ok.error();
@@ -331,12 +359,12 @@ Result<Solution> solve_joint(const CostTable& costs, const Motion& motion,
       costs, motion.skip_costs,
       {.cap = config.cap, .power = 2, .skip_price = config.play_through ? config.skip_price : -1});
   const std::size_t groups = static_cast<std::size_t>(config.headings) + 2;
-  Problem problem{edges, config, groups, (groups + kLanes - 1) / kLanes, served, 0, {}, {}};
+  Problem problem{edges, config, spread, groups, (groups + kLanes - 1) / kLanes, served, 0, {}, {}};
   problem.rho = std::popcount(served) > 1 ? config.change_rate : 0;  // nothing else to command
   problem.angle.resize(problem.blocks);
   problem.exits.resize(problem.blocks);
   Solution solution =
-      detail::empty_solution("responsive", config.headings, 2, motion.velocities.size());
+      detail::empty_solution("responsive", config.headings, 2, motion.velocities.size(), spread);
   const double fast = fast_speed(motion.velocities, motion.v0);
   tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
   arena.execute([&] {

@@ -46,9 +46,11 @@ struct Motion {
 };
 
 /// `served`: bit h, a heading that the player may command (the others are solved too, but not
-/// expected). Errors: as solve(), and BadSetting for the settings above.
+/// expected). `spread`: as for solve(); the processes also share V^turn, N doubles a heading, every
+/// time that M is summed. Errors: as solve(), and BadSetting for the settings above.
 Result<Solution> solve_joint(const CostTable& costs, const Motion& motion,
-                             const JointConfig& config, std::uint32_t served, int jobs = 0);
+                             const JointConfig& config, std::uint32_t served, int jobs = 0,
+                             const Spread& spread = {});
 
 /// The 75th percentile of the speeds above v0: "fast".
 double fast_speed(std::span<const Vec2> velocities, double v0);

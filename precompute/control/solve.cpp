@@ -73,23 +73,24 @@ LaneDoubles iterate(const Edges& edges, const LaneFloats& arrive, double alpha) 
 // Writes one stage of a block's tables, read off its values; returns the largest |TV - V|.
 // `values`: V as it will be stored; where empty, V is what the rows give.
 double write_stage(const Edges& edges, const LaneDoubles& go, const LaneDoubles* values,
-                   const Block& block, std::size_t stage, Solution& solution, LaneDoubles& stored) {
-  const std::size_t n = edges.size(), stages = solution.mode.stages;
+                   const Block& block, std::size_t stage, std::size_t stages,
+                   const detail::BlockTables& tables, LaneDoubles& stored) {
+  const std::size_t n = edges.size();
   LaneDoubles best;
   std::vector<std::uint32_t> next;
   best_of_rows(edges, go, best, next);
   stored.resize(n * kLanes);
   double residual = 0;
   for (std::size_t lane = 0; lane < block.count; ++lane) {
-    const std::size_t table = ((block.first + lane) * stages + stage) * n;
+    const std::size_t table = (lane * stages + stage) * n;
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t at = i * kLanes + lane;
       const double value = values != nullptr ? (*values)[at] : best[at];
       const bool kept = std::isfinite(best[at]);
-      solution.values[table + i] = static_cast<float>(value);
-      solution.mode.next[table + i] = next[at];
-      solution.mode.go[table + i] = kept ? static_cast<float>(go[at]) : 0;
-      stored[at] = kept ? static_cast<double>(solution.values[table + i]) : 0;
+      tables.values[table + i] = static_cast<float>(value);
+      tables.next[table + i] = next[at];
+      tables.go[table + i] = kept ? static_cast<float>(go[at]) : 0;
+      stored[at] = kept ? static_cast<double>(tables.values[table + i]) : 0;
       if (kept) residual = std::max(residual, std::fabs(best[at] - stored[at]));
     }
   }
@@ -98,7 +99,8 @@ double write_stage(const Edges& edges, const LaneDoubles& go, const LaneDoubles*
 
 // One block: the constrained tables, then the chain V^1 .. V^K on top of them.
 double solve_block(const Edges& edges, const Block& block, const SolveConfig& config,
-                   Solution& solution) {
+                   const detail::BlockTables& tables) {
+  const auto stages = static_cast<std::size_t>(config.free_steps) + 1;
   LaneDoubles values;
   if (config.iterate) {
     values = iterate(edges, block.arrive, config.alpha);
@@ -116,10 +118,11 @@ double solve_block(const Edges& edges, const Block& block, const SolveConfig& co
     go[a] = static_cast<double>(block.arrive[a]) +
             (std::isfinite(values[a]) ? config.alpha * values[a] : 0);
   }
-  double residual = write_stage(edges, go, &values, block, 0, solution, stored);
-  for (std::size_t k = 1; k < solution.mode.stages; ++k) {
+  double residual = write_stage(edges, go, &values, block, 0, stages, tables, stored);
+  for (std::size_t k = 1; k < stages; ++k) {
     for (std::size_t a = 0; a < go.size(); ++a) go[a] = config.alpha * stored[a];
-    residual = std::max(residual, write_stage(edges, go, nullptr, block, k, solution, stored));
+    residual =
+        std::max(residual, write_stage(edges, go, nullptr, block, k, stages, tables, stored));
   }
   return residual;
 }
@@ -176,7 +179,20 @@ Result<void> check_graph(const CostTable& costs, std::size_t samples, double v0)
   return {};
 }
 
-Solution empty_solution(const char* name, int headings, int stages, std::size_t samples) {
+namespace {
+
+std::size_t block_count(const ControlMode& mode) {
+  return (mode.headings + 2 + kLanes - 1) / kLanes;
+}
+// Of one block; the last one has fewer groups.
+std::size_t table_count(const ControlMode& mode, std::size_t block) {
+  return std::min<std::size_t>(kLanes, mode.headings + 2 - block * kLanes) * mode.stages;
+}
+
+}  // namespace
+
+Solution empty_solution(const char* name, int headings, int stages, std::size_t samples,
+                        const Spread& spread) {
   Solution solution;
   ControlMode& mode = solution.mode;
   mode.name = name;
@@ -185,10 +201,36 @@ Solution empty_solution(const char* name, int headings, int stages, std::size_t 
   for (std::size_t d = 0; d < kDirectionCount; ++d) mode.table_of[d] = static_cast<Direction>(d);
   mode.served = (1u << kCompassCount) - 1;
   mode.served_headings = mode.headings == 32 ? ~0u : (1u << mode.headings) - 1;
-  mode.next.assign(mode.tables() * samples, kNoSample);
-  mode.go.assign(mode.tables() * samples, 0);
-  solution.values.assign(mode.tables() * samples, 0);
+  std::size_t room = 0;
+  for (std::size_t b = 0; b < block_count(mode); ++b)
+    if (spread.rank == 0 || spread.owns(b)) room += table_count(mode, b) * samples;
+  mode.next.assign(room, kNoSample);
+  mode.go.assign(room, 0);
+  solution.values.assign(room, 0);
   return solution;
+}
+
+BlockTables tables_of(Solution& solution, const Spread& spread, std::size_t block,
+                      std::size_t samples) {
+  const std::size_t before = spread.rank == 0 ? block : block / spread.count;
+  const std::size_t begin = before * kLanes * solution.mode.stages * samples;
+  const std::size_t size = table_count(solution.mode, block) * samples;
+  return {std::span(solution.mode.next).subspan(begin, size),
+          std::span(solution.mode.go).subspan(begin, size),
+          std::span(solution.values).subspan(begin, size)};
+}
+
+void gather_blocks(Solution& solution, const Spread& spread, std::vector<double>& residuals,
+                   std::size_t samples) {
+  for (std::size_t b = 0; b < residuals.size(); ++b) {
+    if (spread.rank != 0 && !spread.owns(b)) continue;
+    const BlockTables tables = tables_of(solution, spread, b, samples);
+    spread.gather_block(b, tables.next);
+    spread.gather_block(b, tables.go);
+    spread.gather_block(b, tables.values);
+    spread.gather_block(b, std::span(residuals).subspan(b, 1));
+  }
+  solution.mode.residual = *std::max_element(residuals.begin(), residuals.end());
 }
 
 }  // namespace detail
@@ -226,29 +268,30 @@ double default_w1(const CostTable& costs) {
 }
 
 Result<Solution> solve(const CostTable& costs, std::span<const Vec2> velocities, double v0,
-                       const SolveConfig& given, int jobs) {
+                       const SolveConfig& given, int jobs, const Spread& spread) {
   if (auto ok = check_settings(given); !ok) return ok.error();
   if (auto ok = detail::check_graph(costs, velocities.size(), v0); !ok) return ok.error();
   SolveConfig config = given;
   if (config.w1 == 0) config.w1 = default_w1(costs);
   const Edges edges = make_edges(costs, {}, {.cap = config.cap});
+  const std::size_t n = velocities.size();
   Solution solution =
-      detail::empty_solution("paper", config.headings, config.free_steps + 1, velocities.size());
+      detail::empty_solution("paper", config.headings, config.free_steps + 1, n, spread);
   const std::size_t groups = solution.mode.headings + 2;
-  const std::size_t blocks = (groups + kLanes - 1) / kLanes;
-  std::vector<double> residuals(blocks, 0);
+  std::vector<double> residuals((groups + kLanes - 1) / kLanes, 0);
   tbb::task_arena arena(jobs > 0 ? jobs : tbb::task_arena::automatic);
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
-      residuals[b] =
-          solve_block(edges, make_block(velocities, v0, config, b * kLanes), config, solution);
+    tbb::parallel_for(std::size_t{0}, residuals.size(), [&](std::size_t b) {
+      if (!spread.owns(b)) return;
+      residuals[b] = solve_block(edges, make_block(velocities, v0, config, b * kLanes), config,
+                                 detail::tables_of(solution, spread, b, n));
     });
   });
+  detail::gather_blocks(solution, spread, residuals, n);
   ControlMode& mode = solution.mode;
   mode.alpha = static_cast<float>(config.alpha);
   mode.w1 = static_cast<float>(config.w1);
   mode.cap = static_cast<float>(config.cap);
-  mode.residual = *std::max_element(residuals.begin(), residuals.end());
   mode.error_bound = mode.residual / (1 - config.alpha);
   return solution;
 }

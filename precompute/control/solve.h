@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "control/spread.h"
 #include "similarity/transitions.h"
 #include "vsprite/geometry.h"
 #include "vsprite/result.h"
@@ -49,18 +50,32 @@ double heading_angle(Vec2 velocity, int h, int headings) noexcept;
 double default_w1(const CostTable& costs);
 
 /// `velocities`: (N) px/s; `v0` px/s > 0. `jobs`: threads, 0 = all; the result does not depend on
-/// it. Errors: BadSetting (alpha, w1, cap, free_steps out of range or not finite), BadContent (a
-/// kept sample without a transition, or one that leads to a sample not kept).
+/// it. With `spread` the whole is what process 0 returns. Errors: BadSetting (alpha, w1, cap,
+/// free_steps out of range or not finite), BadContent (a kept sample without a transition, or one
+/// that leads to a sample not kept).
 Result<Solution> solve(const CostTable& costs, std::span<const Vec2> velocities, double v0,
-                       const SolveConfig& config, int jobs = 0);
+                       const SolveConfig& config, int jobs = 0, const Spread& spread = {});
 
 namespace detail {
 
 /// What both modes ask of their input. Errors: as solve().
 Result<void> check_graph(const CostTable& costs, std::size_t samples, double v0);
 Error bad_setting(const std::string& name, double found, const std::string& due);
-/// A mode with every direction served and room for its tables.
-Solution empty_solution(const char* name, int headings, int stages, std::size_t samples);
+/// A mode with every direction served and room for its tables: in process 0 for all, elsewhere for
+/// those of its own blocks.
+Solution empty_solution(const char* name, int headings, int stages, std::size_t samples,
+                        const Spread& spread);
+
+/// The tables of a block, (groups of it, stages, N), where its process has room for them.
+struct BlockTables {
+  std::span<std::uint32_t> next;
+  std::span<float> go, values;
+};
+BlockTables tables_of(Solution& solution, const Spread& spread, std::size_t block,
+                      std::size_t samples);
+/// `residuals`: a block. To process 0, which sets `solution.mode.residual` to the largest.
+void gather_blocks(Solution& solution, const Spread& spread, std::vector<double>& residuals,
+                   std::size_t samples);
 
 }  // namespace detail
 }  // namespace vsprite

@@ -54,23 +54,30 @@ std::uint32_t wanted_directions(const Settings& settings) {
 
 // Runs a mode and narrows what it serves to what it was seen to travel.
 Result<void> measure_mode(const SolveInput& input, const Settings& settings, Solution& solution) {
-  const ValueFile trial{{solution}};
-  const auto data = make_sprite_data(input.film, input.rows, input.file, trial, {});
+  auto data = make_sprite_data(input.film, input.rows, input.file, {}, {});
   if (!data) return data.error();
-  const auto sprite = make_sprite(*data);
+  data->modes.push_back(solution.mode);
+  const auto sprite = make_sprite(std::move(*data));
   if (!sprite) return sprite.error();
   serve(*sprite, 0, settings.seed, wanted_directions(settings), solution.mode);
   return {};
 }
 
-Result<Solution> solve_paper(const SolveInput& input, const Settings& settings) {
+Spread spread_of(const StageRun& run, const SolveInput& input, const SolveOrder& order) {
+  if (!run.sharing.spread) return {};
+  return run.sharing.spread(input.file.costs, input.motion(), order);
+}
+
+Result<Solution> solve_paper(const SolveInput& input, const StageRun& run) {
+  const Settings& settings = run.settings;
   const SolveConfig config{.alpha = settings.alpha,
                            .w1 = settings.w1,
                            .cap = settings.cap,
                            .free_steps = settings.free_steps,
                            .headings = heading_count(settings),
                            .iterate = settings.solver == "iterate"};
-  auto solution = solve(input.file.costs, input.velocities, input.file.v0, config, settings.jobs);
+  auto solution = solve(input.file.costs, input.velocities, input.file.v0, config, settings.jobs,
+                        spread_of(run, input, {.paper = config}));
   if (!solution) return solution;
   if (auto ok = measure_mode(input, settings, *solution); !ok) return ok.error();
   return solution;
@@ -78,8 +85,9 @@ Result<Solution> solve_paper(const SolveInput& input, const Settings& settings) 
 
 // `expected`: headings that the player may command. What turns out not to be served is not
 // expected either, and the problem is solved again without it.
-Result<Solution> solve_responsive(const SolveInput& input, const Settings& settings,
+Result<Solution> solve_responsive(const SolveInput& input, const StageRun& run,
                                   std::uint32_t expected) {
+  const Settings& settings = run.settings;
   const int headings = heading_count(settings);
   const bool play_through = settings.play_through == "on";
   JointConfig config{.alpha = settings.response_alpha,
@@ -98,7 +106,9 @@ Result<Solution> solve_responsive(const SolveInput& input, const Settings& setti
                             play_through);
   }
   for (int round = 0;; ++round) {
-    auto solution = solve_joint(input.file.costs, input.motion(), config, expected, settings.jobs);
+    auto solution =
+        solve_joint(input.file.costs, input.motion(), config, expected, settings.jobs,
+                    spread_of(run, input, {.is_joint = true, .joint = config, .served = expected}));
     if (!solution) return solution;
     if (auto ok = measure_mode(input, settings, *solution); !ok) return ok.error();
     const std::uint32_t served = solution->mode.served_headings;
@@ -143,9 +153,9 @@ Json solve_settings(const Settings& s) {
 Result<Json> solve_tables(StageRun& run) {
   const auto input = read_input(run);
   if (!input) return input.error();
-  auto paper = solve_paper(*input, run.settings);
+  auto paper = solve_paper(*input, run);
   if (!paper) return Error{paper.error().code, run.project.folder() + ": " + paper.error().message};
-  auto responsive = solve_responsive(*input, run.settings, paper->mode.served_headings);
+  auto responsive = solve_responsive(*input, run, paper->mode.served_headings);
   if (!responsive)
     return Error{responsive.error().code, run.project.folder() + ": " + responsive.error().message};
   Json result = mode_result(paper->mode);

@@ -8,10 +8,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
-
-#include "vsprite/exit_code.h"
+#include <optional>
+#include <thread>
 
 namespace vsprite {
 namespace {
@@ -19,12 +20,72 @@ namespace {
 constexpr int kHead = 3 * 8;   // of a tile: pairs considered, compared, accepted
 constexpr int kTogether = 16;  // tiles found before they are sent or looked for
 constexpr int kEndTag = 0;     // of a process's last message; tile t has the tag t + 1
+constexpr int kTableTag = 0;   // of tables, which come when no search is on
 
-/// What the first process says before the search. The tiles that stand follow, a byte each.
+/// What the first process says. Pairs: the tiles that stand follow, a byte each. Solve: the problem
+/// follows, as send_problem() says it.
 struct Order {
-  std::int32_t go = 0, tiles = 0;
+  enum Kind : std::int32_t { kEnd, kPairs, kSolve } kind = kEnd;
+  std::int32_t tiles = 0;
   float limit = 1;
+  double v0 = 0;
+  SolveOrder solve{};
 };
+
+/// Gives the processor away meanwhile: a stage that one process works at may take minutes.
+void wait_for(MPI_Request& request) {
+  for (int done = 0; MPI_Test(&request, &done, MPI_STATUS_IGNORE), done == 0;)
+    std::this_thread::sleep_for(std::chrono::microseconds(100));
+}
+
+/// Calls `move` for parts that MPI's counts can name.
+template <class Move>
+void in_parts(std::span<std::byte> bytes, const Move& move) {
+  constexpr std::size_t kPart = std::size_t{1} << 30;
+  for (; !bytes.empty(); bytes = bytes.subspan(std::min(kPart, bytes.size()))) {
+    MPI_Request request;
+    move(bytes.data(), static_cast<int>(std::min(kPart, bytes.size())), request);
+    wait_for(request);
+  }
+}
+
+void share(std::size_t owner, std::span<std::byte> bytes) {
+  in_parts(bytes, [&](void* data, int size, MPI_Request& request) {
+    MPI_Ibcast(data, size, MPI_BYTE, static_cast<int>(owner), MPI_COMM_WORLD, &request);
+  });
+}
+template <class T>
+void share_value(T& value) {
+  share(0, std::as_writable_bytes(std::span(&value, 1)));
+}
+/// An array of any length, from the first process.
+template <class T>
+void tell(std::span<const T> values) {
+  std::uint64_t count = values.size();
+  share_value(count);
+  const auto bytes = std::as_bytes(values);
+  share(0, {const_cast<std::byte*>(bytes.data()), bytes.size()});  // are only read here
+}
+template <class T>
+void hear(std::vector<T>& values) {
+  std::uint64_t count = 0;
+  share_value(count);
+  values.resize(static_cast<std::size_t>(count));
+  share(0, std::as_writable_bytes(std::span(values)));
+}
+
+Spread make_spread(int rank, int ranks) {
+  const auto gather = [rank](std::size_t owner, std::span<std::byte> bytes) {
+    in_parts(bytes, [&](void* data, int size, MPI_Request& request) {
+      if (rank == 0)
+        MPI_Irecv(data, size, MPI_BYTE, static_cast<int>(owner), kTableTag, MPI_COMM_WORLD,
+                  &request);
+      else
+        MPI_Isend(data, size, MPI_BYTE, 0, kTableTag, MPI_COMM_WORLD, &request);
+    });
+  };
+  return {static_cast<std::size_t>(rank), static_cast<std::size_t>(ranks), share, gather};
+}
 
 std::string format_message(const PairTile& tile) {
   const std::uint64_t head[] = {tile.considered, tile.compared, tile.pairs.size()};
@@ -72,10 +133,10 @@ void send(const std::string& bytes, int tag) {
 }
 
 /// Another process: its tiles, as the first one orders.
-Result<void> serve(const Result<std::string>& folder, const Order& order,
-                   const std::vector<std::uint8_t>& stands, int jobs, int rank, int ranks) {
-  if (!folder) return folder.error();
-  const auto project = Project::look(*folder);
+Result<void> find_own_pairs(const std::string& folder, const Order& order,
+                            const std::vector<std::uint8_t>& stands, int jobs, int rank,
+                            int ranks) {
+  const auto project = Project::look(folder);
   if (!project) return project.error();
   const auto classifier = project->classifier();
   if (!classifier) return classifier.error();
@@ -84,7 +145,7 @@ Result<void> serve(const Result<std::string>& folder, const Order& order,
   const PairFinder finder(sprites->features, *classifier, order.limit);
   if (finder.tile_count() != order.tiles)
     return Error{ErrorCode::CorruptData,
-                 *folder + ": process " + std::to_string(rank) +
+                 folder + ": process " + std::to_string(rank) +
                      " sees other samples than the first one: all must see the same folder"};
   find_tiles(finder, jobs, tiles_of(rank, ranks, stands),
              [](int t, const PairTile& tile) { send(format_message(tile), t + 1); });
@@ -106,9 +167,11 @@ class Gatherer {
 
   Result<std::vector<PairDistance>> run(int jobs, int ranks, std::uint64_t* compared,
                                         const std::function<void(double)>& progress) {
-    Order order{1, static_cast<std::int32_t>(tiles_.size()), finder_.limit()};
-    MPI_Bcast(&order, sizeof order, MPI_BYTE, 0, MPI_COMM_WORLD);
-    MPI_Bcast(stands_.data(), order.tiles, MPI_BYTE, 0, MPI_COMM_WORLD);
+    Order order{.kind = Order::kPairs,
+                .tiles = static_cast<std::int32_t>(tiles_.size()),
+                .limit = finder_.limit()};
+    share_value(order);
+    tell(std::span<const std::uint8_t>(stands_));
     const auto take = [&](int t, PairTile& tile) {
       keep(t, std::move(tile));
       while (receive(false)) {
@@ -165,38 +228,84 @@ class Gatherer {
   std::optional<Error> fault_;
 };
 
-void wait_for_orders(const Result<std::string>& folder, int jobs, int rank, int ranks) {
-  Order order;
-  MPI_Bcast(&order, sizeof order, MPI_BYTE, 0, MPI_COMM_WORLD);
-  if (order.go == 0) return;
-  std::vector<std::uint8_t> stands(static_cast<std::size_t>(order.tiles));
-  MPI_Bcast(stands.data(), order.tiles, MPI_BYTE, 0, MPI_COMM_WORLD);
-  const auto served = serve(folder, order, stands, jobs, rank, ranks);
-  send(served ? "" : static_cast<char>(served.error().code) + served.error().message, kEndTag);
+void help_search(const std::string& folder, const Order& order, int jobs, int rank, int ranks) {
+  std::vector<std::uint8_t> stands;
+  hear(stands);
+  const auto found = find_own_pairs(folder, order, stands, jobs, rank, ranks);
+  send(found ? "" : static_cast<char>(found.error().code) + found.error().message, kEndTag);
+}
+
+void send_problem(const CostTable& costs, const Motion& motion) {
+  tell(std::span(costs.row_start));
+  tell(std::span(costs.transitions));
+  tell(std::span(costs.kept));
+  tell(std::span(costs.needed));
+  tell(motion.velocities);
+  tell(motion.skip_costs);
+}
+
+/// An error is the first's as well: it makes the same solve.
+void help_solve(const Order& order, int jobs, const Spread& spread) {
+  CostTable costs;
+  std::vector<Vec2> velocities;
+  std::vector<float> skip_costs;
+  hear(costs.row_start);
+  hear(costs.transitions);
+  hear(costs.kept);
+  hear(costs.needed);
+  hear(velocities);
+  hear(skip_costs);
+  if (order.solve.is_joint)
+    (void)solve_joint(costs, {velocities, skip_costs, order.v0}, order.solve.joint,
+                      order.solve.served, jobs, spread);
+  else
+    (void)solve(costs, velocities, order.v0, order.solve.paper, jobs, spread);
+}
+
+void follow_orders(const std::string& folder, int jobs, int rank, int ranks) {
+  for (;;) {
+    Order order;
+    share_value(order);
+    if (order.kind == Order::kEnd) return;
+    if (order.kind == Order::kPairs)
+      help_search(folder, order, jobs, rank, ranks);
+    else
+      help_solve(order, jobs, make_spread(rank, ranks));
+  }
+}
+
+Sharing make_sharing(int jobs, int ranks) {
+  return {.search =
+              [=](const PairFinder& finder, const TileStore& store, std::uint64_t* compared,
+                  const std::function<void(double)>& progress) {
+                return Gatherer(finder, store).run(jobs, ranks, compared, progress);
+              },
+          .spread =
+              [=](const CostTable& costs, const Motion& motion, const SolveOrder& solve_order) {
+                Order order{.kind = Order::kSolve, .v0 = motion.v0, .solve = solve_order};
+                share_value(order);
+                send_problem(costs, motion);
+                return make_spread(0, ranks);
+              }};
 }
 
 }  // namespace
 
-Result<int> run_over_ranks(const Result<std::string>& folder, int jobs,
-                           const std::function<Result<int>(const PairSearch&)>& first) {
+Result<int> run_over_ranks(const std::string& folder, int jobs,
+                           const std::function<Result<int>(const Sharing&)>& first) {
   const bool spread = std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMI_SIZE");
   if (!spread) return first({});
   int level = 0, rank = 0, ranks = 1;
-  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &level);
+  MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &ranks);
   Result<int> result = 0;
   if (rank > 0) {
-    wait_for_orders(folder, jobs, rank, ranks);
+    follow_orders(folder, jobs, rank, ranks);
   } else {
-    bool asked = false;
-    result = first([&](const PairFinder& finder, const TileStore& store, std::uint64_t* compared,
-                       const std::function<void(double)>& progress) {
-      asked = true;
-      return Gatherer(finder, store).run(jobs, ranks, compared, progress);
-    });
-    Order rest;
-    if (!asked) MPI_Bcast(&rest, sizeof rest, MPI_BYTE, 0, MPI_COMM_WORLD);
+    result = first(make_sharing(jobs, ranks));
+    Order end;
+    share_value(end);
   }
   MPI_Finalize();
   return result;

@@ -164,7 +164,8 @@ Result<std::vector<PairDistance>> find_pairs(StageRun& run, const FeatureSet& se
                       {"limit", limit}};
     store = keep_tiles(run.project.path("pairs"), hash_bytes(key.dump()));
   }
-  if (run.search) return run.search(finder, store, &compared, run.listener.progress);
+  if (run.sharing.search)
+    return run.sharing.search(finder, store, &compared, run.listener.progress);
   return accepted_pairs(finder, run.settings.jobs, store, &compared, run.listener.progress);
 }
 

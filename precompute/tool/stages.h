@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "control/joint.h"
 #include "similarity/transitions.h"
 #include "tool/pictures.h"
 #include "tool/project.h"
@@ -40,6 +41,23 @@ using PairSearch = std::function<Result<std::vector<PairDistance>>(
     const PairFinder& finder, const TileStore& store, std::uint64_t* compared,
     const std::function<void(double)>& progress)>;
 
+/// A solve as it is ordered from other processes.
+struct SolveOrder {
+  bool is_joint = false;
+  SolveConfig paper{};
+  JointConfig joint{};
+  std::uint32_t served = 0;  ///< of solve_joint()
+};
+
+/// How a run shares its work with other processes (ranks.h). Empty: it does all itself.
+struct Sharing {
+  PairSearch search;
+  /// Starts the same solve in the others; what it returns is due in solve() or solve_joint() at
+  /// once.
+  std::function<Spread(const CostTable& costs, const Motion& motion, const SolveOrder& order)>
+      spread;
+};
+
 /// What a run works on. `film` is empty where the film is not at hand: segment must then be
 /// current.
 struct StageRun {
@@ -49,7 +67,7 @@ struct StageRun {
   std::string pack;
   StageListener listener;
   int first_frame = 0, end_frame = INT_MAX;  ///< of the film, where a cast names some of it
-  PairSearch search = {};
+  Sharing sharing = {};
   std::optional<LoadedSprites> sprites = {};    ///< read once, used by several stages
   std::optional<std::string> sprites_sum = {};  ///< likewise
 };

@@ -36,7 +36,7 @@ struct Tables {
     costs.row_start = {0, 1, 2, 3, 3};
     costs.transitions = {{1, 0}, {2, 0}, {0, 0.5f}};
     costs.kept = {1, 1, 1, 0};
-    Solution solution = detail::empty_solution("paper", 8, 1, 4);
+    Solution solution = detail::empty_solution("paper", 8, 1, 4, {});
     for (std::size_t k = 0; k < solution.mode.next.size(); k += 4) {
       solution.mode.next[k] = 1;
       solution.mode.next[k + 1] = 2;

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSegment = 0, kTransitions = 2, kPack = 4;
+constexpr int kSegment = 0, kPack = 4;
 
 /// Where a run reads and writes.
 struct Places {
@@ -57,7 +57,7 @@ Result<Places> find_places(const Settings& settings, int first) {
 
 Result<std::vector<StageOutcome>> run_range(const Places& places, const Settings& settings,
                                             Console& console, int first, int last,
-                                            const PairSearch& search = {}) {
+                                            const Sharing& sharing) {
   auto project = Project::open(places.work, first == kSegment);
   if (!project) return project.error();
   if (last == kPack) {
@@ -66,15 +66,26 @@ Result<std::vector<StageOutcome>> run_range(const Places& places, const Settings
     remove_stale_temporaries(folder.empty() ? "." : folder, pack.filename().string() + ".tmp.");
   }
   StageRun run{*project, settings, places.film, places.pack, console.listener()};
-  run.search = search;
+  run.sharing = sharing;
   return run_stages(run, first, last);
 }
 
-Result<int> run_one(const Settings& settings, Console& console, int stage,
-                    const PairSearch& search = {}) {
+/// Runs `first`, and under mpirun in the first process alone.
+Result<int> run_shared(const Settings& settings,
+                       const std::function<Result<int>(const Sharing&)>& first) {
+#ifdef VSPRITE_MPI
+  return run_over_ranks(find_work_folder(settings.work, settings.film, settings.output),
+                        settings.jobs, first);
+#else
+  (void)settings;
+  return first({});
+#endif
+}
+
+Result<int> run_one(const Settings& settings, Console& console, int stage, const Sharing& sharing) {
   const auto places = find_places(settings, stage);
   if (!places) return places.error();
-  const auto outcomes = run_range(*places, settings, console, stage, stage, search);
+  const auto outcomes = run_range(*places, settings, console, stage, stage, sharing);
   if (!outcomes) return outcomes.error();
   console.text(build_text(*outcomes));
   console.document(build_json(*outcomes));
@@ -83,6 +94,18 @@ Result<int> run_one(const Settings& settings, Console& console, int stage,
   else
     console.next("vsprite " + std::string(kStages[stage + 1]) + " --work " +
                  shell_word(places->work));
+  return 0;
+}
+
+Result<int> run_all(const Settings& settings, Console& console, const Sharing& sharing) {
+  const auto places = find_places(settings, kSegment);
+  if (!places) return places.error();
+  const auto outcomes = run_range(*places, settings, console, kSegment, kPack, sharing);
+  if (!outcomes) return outcomes.error();
+  console.text(places->film + " -> " + places->pack + (settings.draft ? ", a draft" : "") + "\n\n" +
+               build_text(*outcomes) + "\n");
+  console.document(build_json(*outcomes));
+  console.next("vsprite play " + shell_word(places->pack));
   return 0;
 }
 
@@ -132,7 +155,7 @@ Result<int> run_window(const Settings& settings, Console& console) {
   options.saved = [&console](const std::string& what) { console.remark(what); };
   const auto choice = key_window(settings, options);
   if (!choice) return choice.error();
-  if (choice->run) return run_one(choice->settings, console, kSegment);
+  if (choice->run) return run_one(choice->settings, console, kSegment, {});
   const std::string command = key_command(choice->settings);
   console.text(command + "\n");
   console.document({{"film", settings.film}, {"command", command}});
@@ -150,36 +173,20 @@ Result<int> run_window(const Settings&, Console&) {
 
 Result<int> run_segment(const Settings& s, Console& c) {
   if (s.window) return run_window(s, c);
-  return s.preview > 0 ? run_preview(s, c) : run_one(s, c, kSegment);
+  return s.preview > 0 ? run_preview(s, c) : run_stage_verb(s, c, kSegment);
 }
 Result<int> run_stage_verb(const Settings& s, Console& c, int stage) {
-  return run_one(s, c, stage);
+  return run_shared(s, [&](const Sharing& sharing) { return run_one(s, c, stage, sharing); });
 }
 Result<int> run_transitions(const Settings& s, Console& c) {
-#ifdef VSPRITE_MPI
-  const auto places = find_places(s, kTransitions);
-  const Result<std::string> folder =
-      places ? Result<std::string>(places->work) : Result<std::string>(places.error());
-  return run_over_ranks(folder, s.jobs, [&](const PairSearch& search) {
-    return run_one(s, c, kTransitions, search);
-  });
-#else
-  return run_one(s, c, kTransitions);
-#endif
+  return run_stage_verb(s, c, stage_index("transitions"));
 }
-Result<int> run_solve(const Settings& s, Console& c) { return run_one(s, c, 3); }
-Result<int> run_pack(const Settings& s, Console& c) { return run_one(s, c, kPack); }
-
-Result<int> run_build(const Settings& settings, Console& console) {
-  const auto places = find_places(settings, kSegment);
-  if (!places) return places.error();
-  const auto outcomes = run_range(*places, settings, console, kSegment, kPack);
-  if (!outcomes) return outcomes.error();
-  console.text(places->film + " -> " + places->pack + (settings.draft ? ", a draft" : "") + "\n\n" +
-               build_text(*outcomes) + "\n");
-  console.document(build_json(*outcomes));
-  console.next("vsprite play " + shell_word(places->pack));
-  return 0;
+Result<int> run_solve(const Settings& s, Console& c) {
+  return run_stage_verb(s, c, stage_index("solve"));
+}
+Result<int> run_pack(const Settings& s, Console& c) { return run_stage_verb(s, c, kPack); }
+Result<int> run_build(const Settings& s, Console& c) {
+  return run_shared(s, [&](const Sharing& sharing) { return run_all(s, c, sharing); });
 }
 
 }  // namespace vsprite
