@@ -170,6 +170,7 @@ SolveConfig paper_config(const ControlMode& mode) {
 }
 
 JointConfig joint_config(const ControlMode& mode) {
+  const double exit_deg = round_to(static_cast<double>(mode.exit_angle) * 180 / kPi);
   return {.alpha = round_to(static_cast<double>(mode.alpha)),
           .cruise_w1 = round_to(static_cast<double>(mode.w1)),
           .turn_w1 = round_to(static_cast<double>(mode.turn_w1)),
@@ -179,7 +180,7 @@ JointConfig joint_config(const ControlMode& mode) {
           .play_through = mode.plays_through,
           .skip_price = round_to(static_cast<double>(mode.skip_price)),
           .bend_deg = round_to(static_cast<double>(mode.dead_angle) * 180 / kPi),
-          .exit_deg = round_to(static_cast<double>(mode.exit_angle) * 180 / kPi),
+          .exit_deg = exit_deg > 0 ? exit_deg : JointConfig{}.exit_deg,
           .headings = static_cast<int>(mode.headings)};
 }
 

@@ -54,7 +54,8 @@ struct BenchResult {
 Result<BenchResult> measure_curves(const Sprite& sprite, const BenchConfig& config,
                                    const std::function<void(double)>& progress = {});
 
-/// The settings that a mode was solved with.
+/// The settings that a mode was solved with. A mode that other programs made may not say at which
+/// angle a turn ends (exit_angle 0): the usual one then.
 JointConfig joint_config(const ControlMode& mode);
 SolveConfig paper_config(const ControlMode& mode);
 

@@ -104,5 +104,24 @@ TEST(Bench, MeasuresTheDefaultOfEveryModeAmongOthersTheSameAtEveryThreadCount) {
   EXPECT_NE(svg.find("a &lt; b"), std::string::npos);
 }
 
+// The tiny sprite's mode says which samples have turned, but not by what angle.
+TEST(Bench, AModeThatNamesNoExitAngleIsSolvedWithTheUsualOne) {
+  const Sprite sprite = testing::tiny_sprite();
+  const ControlMode& mode = sprite.data().modes[1];
+  ASSERT_EQ(mode.exit_angle, 0);
+  BenchConfig config{.seeds = {5}, .seconds = 40};
+  CurvePoint point;
+  point.mode = "responsive";
+  point.joint = joint_config(mode);
+  EXPECT_EQ(point.joint.exit_deg, JointConfig{}.exit_deg);
+  config.grid = {point};
+  const auto result = measure_curves(sprite, config);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_LT(result->curves[0].tracking_worst, 23);
+  ControlMode other = mode;
+  other.exit_angle = 0.5f;
+  EXPECT_NEAR(joint_config(other).exit_deg, 28.64789, 1e-5);
+}
+
 }  // namespace
 }  // namespace vsprite

@@ -103,7 +103,8 @@ Result<int> run_bench(const Settings& settings, const Sprite& sprite, Console& c
   const StageListener listener = console.listener();
   if (listener.begin) listener.begin("bench");
   const auto result = measure_curves(sprite, config, listener.progress);
-  if (!result) return result.error();
+  if (!result)  // every setting is the pack's
+    return Error{ErrorCode::BadContent, settings.film + ": " + result.error().message};
   if (listener.end) listener.end("bench", false);
   if (!settings.output.empty()) {
     const std::string svg = curves_svg(*result, sprite.data().name);
