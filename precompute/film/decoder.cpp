@@ -79,9 +79,10 @@ class Choice {
         first_(source.first),
         end_(source.end),
         outline_(outline) {
-    if (mode_ == Selection::Every) return;
     const auto& times = outline_.times;
     const bool timed = !times.empty() && times.front() != Frame::kNoTime;
+    if (mode_ == Selection::Sought && timed) find_start();
+    if (is_whole_range()) return;
     const bool whole = first_ == 0 && end_ == INT_MAX;
     // The key frames are sorted by place; those of the range alone are counted.
     std::vector<int> places;
@@ -103,6 +104,10 @@ class Choice {
   }
   bool keys_only() const { return mode_ == Selection::KeyFrames; }
   bool admits(const AVPacket& packet) {
+    if (start_ != Frame::kNoTime && !started_) {
+      started_ = (packet.flags & AV_PKT_FLAG_KEY) != 0 && packet.pts == start_;
+      if (!started_) return false;
+    }
     if (!by_keys_) return true;
     const bool shown = (packet.flags & AV_PKT_FLAG_DISCARD) == 0;
     const bool key = (packet.flags & AV_PKT_FLAG_KEY) != 0 && shown;
@@ -121,7 +126,9 @@ class Choice {
   /// Whether the frame, the `count`-th decoded, is to be sent, and its number in the film.
   bool sends(const AVFrame& frame, int count, int& index) const {
     index = count;
-    if (mode_ == Selection::Every) return index >= first_ && index < end_;
+    if (start_ != Frame::kNoTime && frame.best_effort_timestamp != AV_NOPTS_VALUE)
+      index = index_of(frame.best_effort_timestamp);
+    if (is_whole_range()) return index >= first_ && index < end_;
     if (!by_keys_)
       return static_cast<std::size_t>(count) < chosen_.size() &&
              chosen_[static_cast<std::size_t>(count)];
@@ -132,12 +139,23 @@ class Choice {
     return std::any_of(begins_.begin(), begins_.end(),
                        [&](int begin) { return index >= begin && index < begin + length_; });
   }
-  /// Nothing from the `count`-th decoded frame on is sent.
-  bool is_over(int count) const { return !by_keys_ && count >= end_; }
+  /// Nothing from frame `index` on is sent.
+  bool is_over(int index) const { return !by_keys_ && index >= end_; }
 
  private:
   static constexpr int kLeastKeyFrames = 24;
   static constexpr int kReordered = 6;  // packets that may stand before an earlier frame's
+  bool is_whole_range() const {
+    return mode_ == Selection::Every || mode_ == Selection::Sought;
+  }
+  // The last key frame that is shown no later than the first frame wanted; what is shown before it
+  // may lack what it refers to.
+  void find_start() {
+    const auto& times = outline_.times;
+    if (first_ >= static_cast<int>(times.size())) return;
+    for (const std::int64_t key : outline_.keys)
+      if (key <= times[static_cast<std::size_t>(first_)]) start_ = std::max(start_, key);
+  }
   int index_of(std::int64_t time) const {
     return static_cast<int>(std::lower_bound(outline_.times.begin(), outline_.times.end(), time) -
                             outline_.times.begin());
@@ -149,6 +167,8 @@ class Choice {
   const Outline& outline_;
   std::vector<bool> chosen_, key_chosen_;
   std::size_t key_ = 0;
+  std::int64_t start_ = Frame::kNoTime;  // of Sought: decoding begins with this key frame
+  bool started_ = false;
   int left_ = 0, begin_ = 0;
   std::vector<int> begins_;
 };
@@ -175,8 +195,9 @@ void decode_film(int out, const FilmSource& source, const Selection& selection) 
   int count = 0;
   do {
     int index = 0;
-    if (choice.is_over(count)) break;
-    if (choice.sends(*frame, count++, index)) sender.send_frame(*frame, index);
+    const bool sent = choice.sends(*frame, count++, index);
+    if (choice.is_over(index)) break;
+    if (sent) sender.send_frame(*frame, index);
     av_frame_unref(frame.get());
   } while (film.next_frame(*frame, admits));
   send_end(out);
@@ -220,7 +241,7 @@ void decode_pictures(int out, const FilmSource& source, const Selection& selecti
   }
   const auto count = static_cast<int>(pictures->size());
   auto chosen = std::vector<bool>(pictures->size(), true);
-  if (selection.mode != Selection::Every)
+  if (selection.mode != Selection::Every && selection.mode != Selection::Sought)
     chosen = spread(static_cast<std::size_t>(source.first), static_cast<std::size_t>(source.end),
                     pictures->size(), selection.wanted);
   if (selection.mode == Selection::Bursts) lengthen(chosen, selection.length, source.end);

@@ -44,10 +44,11 @@ struct FrameHead {
   std::uint8_t damaged = 0, has_rgba = 0;
 };
 
-/// Which frames are sent, of those that the source admits.
+/// Which frames are sent, of those that the source admits. Sought: every one of the source's range,
+/// decoded from the key frame before it on.
 struct Selection {
-  enum Mode { Every, KeyFrames, Spread, Bursts } mode = Every;
-  int wanted = 0;         ///< of all but Every: about how many frames, or runs of them
+  enum Mode { Every, Sought, KeyFrames, Spread, Bursts } mode = Every;
+  int wanted = 0;         ///< of the last three: about how many frames, or runs of them
   int length = 1;         ///< of Bursts: frames in a run
   bool by_count = false;  ///< whatever is a key frame: for two films side by side
 };

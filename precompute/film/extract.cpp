@@ -408,10 +408,13 @@ Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row) {
   const double step = 1 / row.scale;
   const auto whole = static_cast<float>(step * step);
   const auto crop_width = static_cast<std::size_t>(frame.crop.width);
+  std::vector<Reach> across;
+  for (int u = 0; u < image.width; ++u)
+    across.push_back(reach_of(row.left, step, u, frame.crop.x, frame.crop.width));
   for (int v = 0; v < image.height; ++v) {
     const Reach rows = reach_of(row.top, step, v, frame.crop.y, frame.crop.height);
     for (int u = 0; u < image.width; ++u) {
-      const Reach columns = reach_of(row.left, step, u, frame.crop.x, frame.crop.width);
+      const Reach& columns = across[static_cast<std::size_t>(u)];
       float sum[3] = {};
       float cover = 0;
       const std::uint8_t* only = nullptr;  // the pixel, where it is just one

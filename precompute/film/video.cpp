@@ -351,6 +351,12 @@ Result<FilmReader> FilmReader::open_bursts(const FilmSource& source, int count, 
   return FilmReader(std::move(impl));
 }
 
+Result<FilmReader> FilmReader::open_range(const FilmSource& source) {
+  auto impl = std::make_unique<Impl>();
+  if (auto started = impl->start(source, {Selection::Sought}); !started) return started.error();
+  return FilmReader(std::move(impl));
+}
+
 Result<bool> FilmReader::read(Frame& frame) {
   Impl& film = *impl_;
   for (;;) {

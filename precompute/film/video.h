@@ -90,6 +90,10 @@ class FilmReader {
   /// apart by Frame::index. Runs begin at key frames where there are enough of them. A film that
   /// ends early is no error. Errors: those of open().
   static Result<FilmReader> open_bursts(const FilmSource& source, int count, int length);
+  /// Reads the source's range from the key frame before it on: to look at a place in a film at the
+  /// cost of what lies between two key frames. No rate is kept and a film that ends early is no
+  /// error; without time stamps all that comes before is decoded. Errors: those of open().
+  static Result<FilmReader> open_range(const FilmSource& source);
   FilmReader(FilmReader&&) noexcept;
   FilmReader& operator=(FilmReader&&) noexcept;
   ~FilmReader();

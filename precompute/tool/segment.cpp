@@ -14,7 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <future>
 #include <memory>
+#include <mutex>
 
 #include "film/contact.h"
 #include "film/extract.h"
@@ -45,6 +47,28 @@ bool stands_on_ground(const Settings& settings) {
 }
 
 int stride_of(const Settings& settings) { return settings.draft ? kDraftStride : 1; }
+
+/// Frames whose memory is used again: a large one costs as much to fetch and clear as to fill.
+class FramePool {
+ public:
+  /// Its contents are not specified.
+  std::shared_ptr<Frame> take() {
+    std::unique_ptr<Frame> frame;
+    {
+      const std::scoped_lock lock(guard_);
+      if (!free_.empty()) frame = std::move(free_.back()), free_.pop_back();
+    }
+    if (!frame) frame = std::make_unique<Frame>();
+    return {frame.release(), [this](Frame* used) {
+              const std::scoped_lock lock(guard_);
+              free_.emplace_back(used);
+            }};
+  }
+
+ private:
+  std::mutex guard_;
+  std::vector<std::unique_ptr<Frame>> free_;
+};
 
 /// One frame on its way through the pipeline.
 struct KeyingItem {
@@ -108,12 +132,14 @@ class KeyingPass {
 
   std::shared_ptr<KeyingItem> next(tbb::flow_control& flow) {
     auto item = std::make_shared<KeyingItem>();
-    auto frame = std::make_shared<Frame>();
+    std::shared_ptr<Frame> frame = frames_.take();
     // A draft passes over the frames between.
     for (int pass = read_ == 0 ? stride_ - 1 : 0; pass < stride_; ++pass) {
       const auto more = reader_.read(*frame);
-      lost_ += frame->lost_before;
-      if (more && *more) continue;
+      if (more && *more) {
+        lost_ += frame->lost_before;
+        continue;
+      }
       if (!more) fault_ = more.error();
       flow.stop();
       return item;
@@ -163,6 +189,7 @@ class KeyingPass {
   FilmReader& reader_;
   tbb::enumerable_thread_specific<Keyer> keyers_;
   const KeyedStore& store_;
+  FramePool frames_;  ///< outlives those that are kept below
   // Of the first filter.
   int read_ = 0, lost_ = 0;
   std::vector<FrameSummary> standing_;  ///< of the chunk that is being read, where it stands
@@ -265,11 +292,24 @@ Result<void> clear_sprites(const Project& project) {
   return make_folder(folder);
 }
 
-/// Cuts the rows with the numbers `due`, all of one chunk, in parallel; writes them together.
-/// `shadows`: null, or gets a row for each that casts one.
-Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& frames,
-                       const Extraction& extraction, const std::vector<std::size_t>& due,
-                       std::vector<ShadowRow>* shadows) {
+struct Picture {
+  std::string path;
+  std::vector<std::uint8_t> png;
+};
+
+Result<void> write_pictures(const std::vector<Picture>& pictures) {
+  std::vector<NamedBytes> files;
+  for (const Picture& picture : pictures) files.push_back({picture.path, picture.png});
+  return write_files(files);
+}
+
+/// Cuts the rows with the numbers `due`, all of one chunk, in parallel. `shadows`: null, or gets a
+/// row for each that casts one.
+Result<std::vector<Picture>> cut_chunk(const Project& project,
+                                       const std::vector<KeyedFrame>& frames,
+                                       const Extraction& extraction,
+                                       const std::vector<std::size_t>& due,
+                                       std::vector<ShadowRow>* shadows) {
   using Png = Result<std::vector<std::uint8_t>>;
   std::vector<Png> pictures(due.size(), Png(std::vector<std::uint8_t>{}));
   std::vector<Png> shades = pictures;
@@ -284,26 +324,30 @@ Result<void> cut_chunk(const Project& project, const std::vector<KeyedFrame>& fr
     shade_rows[k] = row_of(row.sample, shadow);
     if (shadow.image.width > 0) shades[k] = encode_png(shadow.image);
   });
-  std::vector<NamedBytes> files;
+  std::vector<Picture> cut;
   for (std::size_t k = 0; k < due.size(); ++k) {
     if (!pictures[k]) return pictures[k].error();
     if (!shades[k]) return shades[k].error();
     if (!shades[k]->empty()) {
       shadows->push_back(shade_rows[k]);
-      files.push_back({shadow_path(project, shade_rows[k].sample), *shades[k]});
+      cut.push_back({shadow_path(project, shade_rows[k].sample), std::move(*shades[k])});
     }
-    files.push_back({project.sprite_path(extraction.rows[due[k]].sample), *pictures[k]});
+    cut.push_back(
+        {project.sprite_path(extraction.rows[due[k]].sample), std::move(*pictures[k])});
   }
-  return write_files(files);
+  return cut;
 }
 
-/// Step 3: rows are in film order, so that every chunk is read once. With shadows all is cut.
+/// Step 3: rows are in film order, so that every chunk is read once. With shadows all is cut. What
+/// was cut is written, and waited for, while the next chunk is cut.
 Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extraction& extraction,
                          bool resumed) {
   const bool shaded = run.settings.shadow;
   std::vector<ShadowRow> shadows;
   if (shaded)
     if (auto made = make_folder(run.project.path(kShadowFolder)); !made) return made.error();
+  std::future<Result<void>> writing;
+  const auto written = [&writing] { return writing.valid() ? writing.get() : Result<void>{}; };
   const auto& rows = extraction.rows;
   const auto chunk_of = [&](std::size_t row) { return extraction.positions[row] / kChunkFrames; };
   for (std::size_t begin = 0; begin < rows.size() && rows[begin].mirror_of < 0;) {
@@ -321,14 +365,16 @@ Result<void> cut_sprites(StageRun& run, const KeyedStore& store, const Extractio
         return Error{ErrorCode::CorruptData, run.project.path("keyed") + ": chunk " +
                                                  std::to_string(chunk) +
                                                  " was damaged meanwhile: run it again"};
-      if (auto cut = cut_chunk(run.project, *frames, extraction, due, shaded ? &shadows : nullptr);
-          !cut)
-        return cut.error();
+      auto cut = cut_chunk(run.project, *frames, extraction, due, shaded ? &shadows : nullptr);
+      if (!cut) return cut.error();
+      if (auto wrote = written(); !wrote) return wrote;
+      writing = std::async(std::launch::async, write_pictures, std::move(*cut));
     }
     begin = end;
     report(run,
            kKeyed + (1 - kKeyed) * static_cast<double>(end) / static_cast<double>(rows.size()));
   }
+  if (auto wrote = written(); !wrote) return wrote;
   if (shaded)
     if (auto wrote = write_shadows(run.project, shadows); !wrote) return wrote;
   return sync_folder(run.project.path("sprites"));

@@ -119,19 +119,14 @@ KeyWish Keying::wish_of(int slot) const {
   return {look_.frame, settings.key, *matte_of(settings)};
 }
 
-// To the next frame that can be shown.
 void Keying::step(int by) {
-  const auto& frames = look_.state.frames;
-  if (frames.empty()) return;
-  const auto after = by > 0 ? std::upper_bound(frames.begin(), frames.end(), look_.frame)
-                            : std::lower_bound(frames.begin(), frames.end(), look_.frame);
-  if (by > 0 && after != frames.end()) look_.frame = *after;
-  if (by < 0 && after != frames.begin()) look_.frame = *std::prev(after);
+  look_.frame = std::clamp(look_.frame + by, 0, std::max(look_.state.film_frames - 1, 0));
 }
 
 void Keying::save() {
   const auto& shown = look_.shown[look_.slot];
-  if (!shown || shown->wish != wish_of(look_.slot) || shown->keyed.straight.rgba.empty()) {
+  if (!shown || !shown->is_final || shown->wish != wish_of(look_.slot) ||
+      shown->keyed.straight.rgba.empty()) {
     look_.said = "There is nothing to save yet.";
     return;
   }
@@ -226,15 +221,15 @@ void Keying::follow_job() {
   }
   if (!has_frame_) return;
   if (auto shown = job_.take()) {
+    if (shown->is_final) asked_.reset();
     look_.shown[asked_slot_] = std::move(shown);
-    asked_.reset();
   }
   for (const int slot : {look_.slot, 1 - look_.slot}) {
     const KeyWish wish = wish_of(slot);
     const auto& shown = look_.shown[slot];
-    if (shown && shown->wish == wish) continue;
+    if (shown && shown->wish == wish && shown->is_final) continue;
     const auto& other = look_.shown[1 - slot];
-    if (other && other->wish == wish) {
+    if (other && other->wish == wish && other->is_final) {
       look_.shown[slot] = other;
       continue;
     }

@@ -13,6 +13,7 @@ namespace vsprite::window {
 namespace {
 
 constexpr std::int64_t kRoom = std::int64_t{256} << 20;  // bytes of frames beside the samples
+constexpr int kBefore = 2, kAfter = 5;                  // fetched with a frame: the next steps
 
 std::int64_t bytes_of(const Frame& frame) {
   return static_cast<std::int64_t>(frame.y.size() + 2 * frame.cb.size() + frame.rgba.size());
@@ -104,15 +105,44 @@ void KeyJob::read_more() {
   between_.emplace(index, std::move(frame));
 }
 
+bool KeyJob::is_wanted(const KeyWish& wish) const {
+  const std::scoped_lock lock(guard_);
+  return wish_ == wish && !ends_;
+}
+
+// The frame itself, where one beside it was shown.
+void KeyJob::fetch(const KeyWish& wish) {
+  FilmSource source = source_;
+  source.first = std::max(source_.first, wish.frame - kBefore);
+  source.end = std::min(source_.end, wish.frame + kAfter + 1);
+  if (source.first >= source.end) return;
+  auto reader = FilmReader::open_range(source);
+  if (!reader) return;
+  about_.clear();
+  for (Frame frame; is_wanted(wish);) {
+    const auto more = reader->read(frame);
+    if (!more || !*more) break;
+    const int index = frame.index;
+    about_.emplace(index, std::move(frame));
+  }
+}
+
+void KeyJob::hand_out(KeyShown shown) {
+  const std::scoped_lock lock(guard_);
+  if (wish_ == shown.wish) shown_ = std::move(shown);
+}
+
 const Frame& KeyJob::nearest(int index) const {
   const Frame* best = &samples_[0];
   const auto look = [&](const Frame& frame) {
     if (std::abs(frame.index - index) < std::abs(best->index - index)) best = &frame;
   };
   for (const Frame& frame : samples_) look(frame);
-  const auto after = between_.lower_bound(index);
-  if (after != between_.end()) look(after->second);
-  if (after != between_.begin()) look(std::prev(after)->second);
+  for (const auto* frames : {&between_, &about_}) {
+    const auto after = frames->lower_bound(index);
+    if (after != frames->end()) look(after->second);
+    if (after != frames->begin()) look(std::prev(after)->second);
+  }
   return *best;
 }
 
@@ -161,6 +191,9 @@ void KeyJob::work() {
       const FilmInfo& info = reader->info();
       const std::int64_t all = bytes_of(samples_[0]) * std::max(info.claimed_frames, 1);
       stride_ = static_cast<int>((all + kRoom - 1) / kRoom);
+      const std::scoped_lock lock(guard_);
+      state_.film_frames =
+          std::max(state_.film_frames, std::min(info.counted_frames, source_.end));
       reader_.emplace(std::move(*reader));
     }
     set_phase(KeyPhase::Idle);
@@ -180,10 +213,16 @@ void KeyJob::work() {
     }
     set_phase(KeyPhase::Keying);
     KeyShown shown = show(*wish);
+    shown.is_final = shown.keyed.index == wish->frame;
+    const bool is_final = shown.is_final;
+    hand_out(std::move(shown));
+    if (!is_final) {
+      fetch(*wish);
+      if (is_wanted(*wish)) hand_out(show(*wish));
+    }
     const std::scoped_lock lock(guard_);
     if (wish_ == wish) {
       wish_.reset();
-      shown_ = std::move(shown);
       state_.phase = KeyPhase::Idle;
     }
     changed_.notify_all();

@@ -22,7 +22,7 @@ namespace vsprite::window {
 
 /// A frame, and how it is to be keyed.
 struct KeyWish {
-  int frame = 0;  ///< of the film; the nearest that is held is taken
+  int frame = 0;  ///< of the film; the nearest that is held is taken until it was fetched
   std::string key = "auto";
   MatteConfig matte{};
   bool operator==(const KeyWish&) const = default;
@@ -38,6 +38,7 @@ struct KeyShown {
   bool has_tint = false;   ///< the background is a coloured screen
   bool is_keyed = false;   ///< the film brings no alpha of its own
   double seconds = 0;      ///< of keying the frame
+  bool is_final = true;    ///< false: a frame beside the one asked for, which is being fetched
   std::string error{};     ///< why there is no matte; empty
 };
 
@@ -70,6 +71,9 @@ class KeyJob {
   void work();
   bool read_samples();
   void read_more();
+  void fetch(const KeyWish& wish);
+  bool is_wanted(const KeyWish& wish) const;
+  void hand_out(KeyShown shown);
   KeyShown show(const KeyWish& wish);
   const Frame& nearest(int index) const;
   const Result<ScreenModel>& model_of(const std::string& key);
@@ -79,6 +83,7 @@ class KeyJob {
   const FilmSource source_;
   std::vector<Frame> samples_;    ///< that `segment` measures the background on
   std::map<int, Frame> between_;  ///< as many of the others as there is room for
+  std::map<int, Frame> about_;    ///< and those about the frame last asked for
   std::optional<FilmReader> reader_;
   int stride_ = 1;
   std::vector<std::pair<std::string, Result<ScreenModel>>> models_;  ///< the last two asked for

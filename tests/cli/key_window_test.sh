@@ -93,6 +93,19 @@ press Return
 wait $window || { cp log.err stderr; fail "Enter did not cut the film"; }
 grep -q '"edge": 0.75' ring.work/manifest.json || fail "the film was cut with other settings"
 
+# Of a film that does not fit in memory too: any frame, from the key frame before it.
+ffmpeg -v error -stream_loop 1 -i ring.mp4 -vf scale=1920:1080:flags=neighbor -c:v libx264 -preset ultrafast \
+  -pix_fmt yuv420p -g 50 large.mp4 || fail "no large film"
+start large.mp4
+saved; first=${picture%.png}; first=${first##*.}
+for step in 1 2 3 4; do
+  press Right; saved
+  [ "$picture" = "large.$((first + step)).png" ] || fail "step $step from $first shows $picture"
+done
+repeats "a frame that was fetched"
+press Escape
+wait $window || fail "the window of a large film did not end well"
+
 # Without a person.
 expect 0 vsprite segment ring.mp4 --window --headless --record shot.png --json --despill 0
 is_json /film /command

@@ -119,6 +119,46 @@ TEST(Video, SamplesAreSpreadOverTheFilm) {
   }
 }
 
+// A place in a film is what reading it from the start gives there, whatever refers to what.
+TEST(Video, ReadsARangeFromTheKeyFrameBeforeIt) {
+  const TempFolder folder;
+  struct Kind {
+    const char *name, *options;
+  };
+  const Kind kinds[] = {{"closed.mp4", "-c:v libx264 -crf 30 -pix_fmt yuv420p -g 12 -bf 3"},
+                        {"open.mp4",
+                         "-c:v libx264 -crf 30 -pix_fmt yuv420p -g 12 -bf 3 -x264-params "
+                         "open-gop=1:scenecut=0"},
+                        {"mpeg2.mpg", "-c:v mpeg2video -q:v 8 -g 12 -bf 2"},
+                        {"bare.h264", "-c:v libx264 -crf 30 -pix_fmt yuv420p -g 12 -bf 3"},
+                        {"lone.mp4", "-c:v libx264 -crf 30 -pix_fmt yuv420p -g 250"}};
+  for (const Kind& kind : kinds) {
+    const std::string path = folder.file(kind.name);
+    if (!encode_film(counting_frames(60), path, kind.options)) GTEST_SKIP() << "no ffmpeg";
+    auto whole = FilmReader::open(path);
+    ASSERT_TRUE(whole) << whole.error().message;
+    std::vector<Frame> frames;
+    for (Frame frame; *whole->read(frame);) frames.push_back(frame);
+    ASSERT_GE(frames.size(), 58u) << kind.name;
+    for (const int first : {0, 1, 11, 12, 13, 23, 24, 35, 50, 57}) {
+      FilmSource source(path);
+      source.first = first, source.end = first + 4;
+      auto film = FilmReader::open_range(source);
+      ASSERT_TRUE(film) << kind.name << ", " << first << ": " << film.error().message;
+      Frame frame;
+      int at = first;
+      for (auto more = film->read(frame); more && *more; more = film->read(frame), ++at) {
+        ASSERT_LT(at, static_cast<int>(frames.size()));
+        const Frame& due = frames[static_cast<std::size_t>(at)];
+        EXPECT_EQ(frame.index, due.index) << kind.name << ", " << first;
+        EXPECT_TRUE(frame.y == due.y && frame.cb == due.cb) << kind.name << ", " << first;
+      }
+      EXPECT_EQ(at, std::min(first + 4, static_cast<int>(frames.size())))
+          << kind.name << ", " << first;
+    }
+  }
+}
+
 TEST(Video, SaysWhatIsNoFilm) {
   const TempFolder folder;
   EXPECT_EQ(FilmReader::open(folder.file("none.mp4")).error().code, ErrorCode::NotFound);
