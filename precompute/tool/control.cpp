@@ -63,6 +63,20 @@ Result<void> measure_mode(const SolveInput& input, const Settings& settings, Sol
   return {};
 }
 
+// What an edit of transitions.bin may have done to the kept samples; they are solved all the same.
+Json part_reasons(const CostTable& costs) {
+  const Components parts = find_components(costs);
+  std::vector<std::uint8_t> holds_kept(parts.count, 0);
+  for (std::size_t i = 0; i < costs.kept.size(); ++i)
+    if (costs.kept[i] != 0) holds_kept[parts.of[i]] = 1;
+  const auto count = std::count(holds_kept.begin(), holds_kept.end(), std::uint8_t{1});
+  if (count < 2) return Json::array();
+  return Json::array(
+      {"the kept samples fall into " + std::to_string(count) +
+       " parts, without a way from each to every other: a sprite goes where its own part does, " +
+       "`vsprite transitions --force transitions` keeps one part"});
+}
+
 Spread spread_of(const StageRun& run, const SolveInput& input, const SolveOrder& order) {
   if (!run.sharing.spread) return {};
   return run.sharing.spread(input.file.costs, input.motion(), order);
@@ -161,6 +175,7 @@ Result<Json> solve_tables(StageRun& run) {
   Json result = mode_result(paper->mode);
   result["free_steps"] = run.settings.free_steps;
   result["responsive"] = mode_result(responsive->mode);
+  result["reasons"] = part_reasons(input->file.costs);
   ValueFile values;
   values.modes.push_back(std::move(*responsive));
   values.modes.push_back(std::move(*paper));

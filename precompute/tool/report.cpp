@@ -127,6 +127,10 @@ std::vector<std::string> join_lines(const Json& r) {
 std::vector<std::string> stage_lines(const StageOutcome& stage) {
   const Json& r = stage.result;
   std::vector<std::string> lines;
+  const auto add_reasons = [&] {
+    for (const Json& reason : r.value("reasons", Json::array()))
+      if (reason.is_string()) lines.push_back(reason.get<std::string>());
+  };
   if (stage.name == "segment") {
     lines.push_back(count_text(r, "frames") + " frames -> " + count_text(r, "samples") +
                     " samples in " + count_text(r, "clips") + " clips, " +
@@ -160,8 +164,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
                                          {"lost_dead_end", "without a way on"},
                                          {"lost_unreachable", "without a way in"}});
     if (!lost.empty()) lines.push_back("lost: " + lost);
-    for (const Json& reason : r.value("reasons", Json::array()))
-      if (reason.is_string()) lines.push_back(reason.get<std::string>());
+    add_reasons();
     for (const std::string& join : join_lines(r)) lines.push_back(join);
   } else if (stage.name == "solve") {
     const auto line = [&](const char* name, const Json& mode) {
@@ -174,6 +177,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     };
     if (r.contains("responsive")) line("responsive", r["responsive"]);
     line("paper", r);
+    add_reasons();
   } else if (stage.name == "pack") {
     lines.push_back(bytes_text(static_cast<std::uint64_t>(count_of(r, "pack_bytes"))));
     if (r.contains("budget")) lines.push_back(budget_text(r["budget"]));

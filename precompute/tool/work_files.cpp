@@ -176,19 +176,49 @@ Error wrong_count(const std::string& path, std::uint64_t found, std::size_t due,
       path, std::to_string(found) + " samples where samples.csv has " + std::to_string(due), stage);
 }
 
-bool costs_agree(const TransitionFile& file, std::size_t samples) {
+/// What is wrong with transitions whose counts fit; empty: nothing.
+std::string fault_of(const TransitionFile& file, std::size_t samples) {
   const CostTable& costs = file.costs;
+  const auto number = [](std::size_t n) { return std::to_string(n); };
+  const std::string last = number(samples - 1);
+  if (!(file.v0 > 0) || !std::isfinite(file.v0))
+    return "v0 is " + number_text(file.v0) + " where a speed above 0 is due";
   if (costs.row_start.front() != 0 || costs.row_start.back() != costs.transitions.size())
-    return false;
-  if (!std::is_sorted(costs.row_start.begin(), costs.row_start.end())) return false;
-  const auto fits = [samples](const Transition& t) {
-    return t.to < samples && t.cost >= 0 && std::isfinite(t.cost);
-  };
-  const auto is_cost = [](float cost) { return cost >= 0; };
-  return std::all_of(costs.transitions.begin(), costs.transitions.end(), fits) &&
-         std::all_of(file.skip_costs.begin(), file.skip_costs.end(), is_cost) &&
-         std::all_of(file.pairs.begin(), file.pairs.end(),
-                     [samples](const PairDistance& p) { return p.i < p.j && p.j < samples; });
+    return "its rows run from " + number(costs.row_start.front()) + " to " +
+           number(costs.row_start.back()) + " where 0 to " + number(costs.transitions.size()) +
+           " are due";
+  for (std::size_t i = 0; i < samples; ++i)
+    if (costs.row_start[i] > costs.row_start[i + 1])
+      return "the row of sample " + number(i) + " ends at " + number(costs.row_start[i + 1]) +
+             " where " + number(costs.row_start[i]) + " or more is due";
+  for (std::size_t i = 0; i < samples; ++i) {
+    const std::string from = "sample " + number(i) + " ";
+    if (costs.kept[i] > 1)
+      return from + "is kept " + number(costs.kept[i]) + " times where 0 or 1 is due";
+    if (costs.kept[i] == 1 && costs.row_start[i] == costs.row_start[i + 1])
+      return from + "leads nowhere where a kept one leads to one or more";
+    std::int64_t before = -1;
+    for (std::uint32_t e = costs.row_start[i]; e < costs.row_start[i + 1]; ++e) {
+      const Transition& t = costs.transitions[e];
+      const std::string way = from + "leads to sample " + number(t.to);
+      if (t.to >= samples) return way + " where 0 to " + last + " are due";
+      if (t.to <= before) return way + " where a row ascends";
+      if (costs.kept[i] == 0 || costs.kept[t.to] == 0)
+        return way + " where both were to be kept, and one was not";
+      if (!(t.cost >= 0) || !std::isfinite(t.cost))
+        return way + " at a cost of " + number_text(static_cast<double>(t.cost)) +
+               " where 0 or more is due";
+      before = t.to;
+    }
+    if (!(file.skip_costs[i] >= 0))
+      return "leaving out what follows " + from + "costs " +
+             number_text(static_cast<double>(file.skip_costs[i])) + " where 0 or more is due";
+  }
+  for (const PairDistance& p : file.pairs)
+    if (p.i >= p.j || p.j >= samples)
+      return "it pairs samples " + number(p.i) + " and " + number(p.j) + " where two of 0 to " +
+             last + " are due, the lower one first";
+  return {};
 }
 
 }  // namespace
@@ -347,9 +377,10 @@ Result<TransitionFile> parse_transitions(const std::string& bytes, const std::st
       !reader.get_array(file.costs.row_start, count + 1) ||
       !reader.get_array(file.costs.transitions, transitions) ||
       !reader.get_array(file.costs.kept, count) || !reader.get_array(file.pairs, pairs) ||
-      !reader.get_array(file.skip_costs, count) || reader.left() != 0 ||
-      !costs_agree(file, samples))
+      !reader.get_array(file.skip_costs, count) || reader.left() != 0)
     return damaged(path, "its counts contradict its size", "transitions");
+  if (const std::string fault = fault_of(file, samples); !fault.empty())
+    return damaged(path, fault, "transitions");
   return file;
 }
 

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <functional>
 
 #include "support/temp_folder.h"
 #include "tool/settings.h"
@@ -97,6 +99,52 @@ TEST(TransitionFileTest, EveryTruncationAndEveryFlippedByteIsRefused) {
     EXPECT_FALSE(parse_transitions(flipped, "t.bin", 3)) << at;
   }
   EXPECT_FALSE(parse_transitions(bytes, "t.bin", 4));
+}
+
+// Sums that are right say nothing about what a person or a script wrote.
+TEST(TransitionFileTest, SaysWhatAnEditedTableHoldsAndWhatIsDue) {
+  const auto fault = [](const std::function<void(TransitionFile&)>& edit) {
+    TransitionFile file = table_of_three();
+    edit(file);
+    const auto read = parse_transitions(format_transitions(file), "w/transitions.bin", 3);
+    EXPECT_EQ(read ? ErrorCode::Internal : read.error().code, ErrorCode::CorruptData);
+    return read ? std::string("no error") : read.error().message;
+  };
+  const auto with = [](const std::string& what) {
+    return "w/transitions.bin: " + what +
+           ": make it again with `vsprite transitions --force transitions`";
+  };
+  EXPECT_EQ(fault([](auto& f) { f.costs.transitions[1].to = 3; }),
+            with("sample 1 leads to sample 3 where 0 to 2 are due"));
+  EXPECT_EQ(fault([](auto& f) { f.costs.transitions[2].cost = -0.5f; }),
+            with("sample 2 leads to sample 0 at a cost of -0.5 where 0 or more is due"));
+  EXPECT_EQ(fault([](auto& f) { f.costs.transitions[2].cost = NAN; }),
+            with("sample 2 leads to sample 0 at a cost of nan where 0 or more is due"));
+  EXPECT_EQ(fault([](auto& f) {
+              f.costs.row_start = {0, 1, 1, 3};
+            }),
+            with("sample 1 leads nowhere where a kept one leads to one or more"));
+  EXPECT_EQ(fault([](auto& f) {
+              f.costs.row_start = {0, 2, 1, 3};
+            }),
+            with("the row of sample 1 ends at 1 where 2 or more is due"));
+  EXPECT_EQ(fault([](auto& f) {
+              f.costs.row_start = {1, 1, 2, 3};
+            }),
+            with("its rows run from 1 to 3 where 0 to 3 are due"));
+  EXPECT_EQ(fault([](auto& f) {
+              f.costs.row_start = {0, 1, 3, 3};
+            }),
+            with("sample 1 leads to sample 0 where a row ascends"));
+  EXPECT_EQ(fault([](auto& f) { f.costs.kept[2] = 0; }),
+            with("sample 1 leads to sample 2 where both were to be kept, and one was not"));
+  EXPECT_EQ(fault([](auto& f) { f.costs.kept[0] = 7; }),
+            with("sample 0 is kept 7 times where 0 or 1 is due"));
+  EXPECT_EQ(fault([](auto& f) { f.v0 = 0; }), with("v0 is 0 where a speed above 0 is due"));
+  EXPECT_EQ(fault([](auto& f) { f.skip_costs[1] = NAN; }),
+            with("leaving out what follows sample 1 costs nan where 0 or more is due"));
+  EXPECT_EQ(fault([](auto& f) { f.pairs[0].j = 3; }),
+            with("it pairs samples 0 and 3 where two of 0 to 2 are due, the lower one first"));
 }
 
 TEST_F(ProjectTest, AStageIsCurrentUntilItsInputsOrSettingsChange) {
