@@ -179,7 +179,8 @@ Result<Json> solve_tables(StageRun& run) {
   ValueFile values;
   values.modes.push_back(std::move(*responsive));
   values.modes.push_back(std::move(*paper));
-  if (auto wrote = write_file(run.project.path("values.bin"), format_values(values)); !wrote)
+  if (auto wrote = write_file(run.project.path("values.bin"), format_values(std::move(values)));
+      !wrote)
     return wrote.error();
   return result;
 }

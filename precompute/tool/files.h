@@ -92,6 +92,8 @@ class ByteWriter {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   }
+  /// Room for so many bytes more, so that none is copied again.
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes_.size() + bytes); }
   std::string take() && { return std::move(bytes_); }
   const std::string& bytes() const noexcept { return bytes_; }
 

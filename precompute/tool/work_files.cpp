@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "tool/files.h"
 #include "tool/settings.h"
@@ -404,20 +405,28 @@ const Solution* ValueFile::find(const std::string& name) const {
   return nullptr;
 }
 
-std::string format_values(const ValueFile& file) {
+std::string format_values(ValueFile file) {
   ByteWriter writer = begin_table(kValueMagic);
+  std::size_t entries = 0;
+  for (const Solution& solution : file.modes)
+    entries += 3 * solution.values.size() + solution.mode.arrived.size();
+  writer.reserve(4 * entries + 1024 * file.modes.size());
+  const auto put = [&writer](auto& array) {
+    writer.put_array(std::span(std::as_const(array)));
+    array = {};
+  };
   const ControlMode& first = file.modes.front().mode;
   writer.put(std::uint64_t{first.next.size() / first.tables()});
   writer.put(std::uint64_t{file.modes.size()});
-  for (const Solution& solution : file.modes) {
-    const ControlMode& mode = solution.mode;
+  for (Solution& solution : file.modes) {
+    ControlMode& mode = solution.mode;
     writer.put(static_cast<std::uint32_t>(mode.by_state) |
                static_cast<std::uint32_t>(mode.plays_through) << 1);
     visit_settings(mode, [&](const auto& value) { return writer.put(value), true; });
-    writer.put_array(std::span(mode.next));
-    writer.put_array(std::span(mode.go));
-    writer.put_array(std::span(solution.values));
-    writer.put_array(std::span(mode.arrived));
+    put(mode.next);
+    put(mode.go);
+    put(solution.values);
+    put(mode.arrived);
   }
   return end_table(std::move(writer));
 }

@@ -61,7 +61,8 @@ struct ValueFile {
   /// Pre: it holds the mode.
   const Solution* find(const std::string& name) const;
 };
-std::string format_values(const ValueFile& file);
+/// Gives the memory of a table back as soon as it is in the text.
+std::string format_values(ValueFile file);
 Result<ValueFile> parse_values(const std::string& bytes, const std::string& path,
                                std::size_t samples);
 
