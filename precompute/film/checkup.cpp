@@ -121,37 +121,6 @@ std::optional<Shift> find_shift(Level a, Level b) {
   return shift;
 }
 
-// The share of the part that shows as holes: what the outside does not reach, inside its box.
-double hole_share(const KeyedFrame& keyed, const Blob& blob) {
-  const int w = blob.box.width + 2, h = blob.box.height + 2;
-  std::vector<std::uint8_t> state(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
-  int solid = 0;
-  for (int v = 1; v + 1 < h; ++v)
-    for (int u = 1; u + 1 < w; ++u) {
-      const std::size_t i = at(blob.box.x + u - 1 - keyed.crop.x, blob.box.y + v - 1 - keyed.crop.y,
-                               keyed.crop.width);
-      if (keyed.labels[i] != blob.label || keyed.straight.rgba[4 * i + 3] < 128) continue;
-      state[at(u, v, w)] = 1;
-      ++solid;
-    }
-  std::vector<std::pair<int, int>> open{{0, 0}};
-  state[0] = 2;
-  int reached = 1;
-  while (!open.empty()) {
-    const auto [u, v] = open.back();
-    open.pop_back();
-    const std::pair<int, int> next[] = {{u + 1, v}, {u - 1, v}, {u, v + 1}, {u, v - 1}};
-    for (const auto& [x, y] : next) {
-      if (x < 0 || y < 0 || x >= w || y >= h || state[at(x, y, w)] != 0) continue;
-      state[at(x, y, w)] = 2;
-      ++reached;
-      open.emplace_back(x, y);
-    }
-  }
-  const int holes = w * h - reached - solid;
-  return solid + holes > 0 ? static_cast<double>(holes) / (solid + holes) : 0;
-}
-
 // Soft pixels for each pixel of outline.
 double edge_width(const KeyedFrame& keyed, const Blob& blob) {
   int soft = 0, outline = 0;
@@ -181,6 +150,36 @@ double difference(const Frame& a, const Frame& b, const Rect& box) {
 }
 
 }  // namespace
+
+double hole_share(const KeyedFrame& keyed, const Blob& blob) {
+  const int w = blob.box.width + 2, h = blob.box.height + 2;
+  std::vector<std::uint8_t> state(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
+  int solid = 0;
+  for (int v = 1; v + 1 < h; ++v)
+    for (int u = 1; u + 1 < w; ++u) {
+      const std::size_t i = at(blob.box.x + u - 1 - keyed.crop.x, blob.box.y + v - 1 - keyed.crop.y,
+                               keyed.crop.width);
+      if (keyed.labels[i] != blob.label || keyed.straight.rgba[4 * i + 3] < 128) continue;
+      state[at(u, v, w)] = 1;
+      ++solid;
+    }
+  std::vector<std::pair<int, int>> open{{0, 0}};
+  state[0] = 2;
+  int reached = 1;
+  while (!open.empty()) {
+    const auto [u, v] = open.back();
+    open.pop_back();
+    const std::pair<int, int> next[] = {{u + 1, v}, {u - 1, v}, {u, v + 1}, {u, v - 1}};
+    for (const auto& [x, y] : next) {
+      if (x < 0 || y < 0 || x >= w || y >= h || state[at(x, y, w)] != 0) continue;
+      state[at(x, y, w)] = 2;
+      ++reached;
+      open.emplace_back(x, y);
+    }
+  }
+  const int holes = w * h - reached - solid;
+  return solid + holes > 0 ? static_cast<double>(holes) / (solid + holes) : 0;
+}
 
 CheckupMeter::Small CheckupMeter::shrink(const Frame& frame, const KeyedFrame& keyed) {
   Small small;

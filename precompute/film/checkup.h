@@ -15,6 +15,9 @@
 
 namespace vsprite {
 
+/// The share of a part that shows as holes, 0..1: what the outside does not reach, inside its box.
+double hole_share(const KeyedFrame& keyed, const Blob& blob);
+
 /// Consecutive frames from somewhere in the film, and what the keyer made of them.
 struct Burst {
   std::vector<Frame> frames;

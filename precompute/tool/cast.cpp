@@ -326,8 +326,12 @@ Json cast_result(const StageRun& run, const std::vector<Member>& members, const 
   if (out.contains("floor")) out["floor"]["scale"] = cast.rows.front().scale;
   out["background"] = "each clip its own";
   out["cast"] = Json::array();
-  for (std::size_t k = 0; k < members.size(); ++k)
+  out["warnings"] = Json::array();
+  for (std::size_t k = 0; k < members.size(); ++k) {
     out["cast"].push_back(member_json(members[k], k, members.front().rate));
+    for (const Json& warning : members[k].result.value("warnings", Json::array()))
+      out["warnings"].push_back(members[k].clip->file + ": " + warning.get<std::string>());
+  }
   return out;
 }
 

@@ -135,6 +135,7 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
     lines.push_back(count_text(r, "frames") + " frames -> " + count_text(r, "samples") +
                     " samples in " + count_text(r, "clips") + " clips, " +
                     count_text(r, "duplicates") + " duplicates");
+    lines.push_back("background: " + r.value("background", ""));
     const std::string dropped = counted(r, {{"dropped_border", "cut by the border"},
                                             {"dropped_empty", "without the subject"},
                                             {"dropped_touched", "touched by something"},
@@ -154,6 +155,8 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
         lines.push_back("matched " + line);
     lines.push_back("noise of the velocity " + fixed_text(real_of(r, "velocity_noise"), 1) +
                     " px/s");
+    for (const Json& warning : r.value("warnings", Json::array()))
+      lines.push_back("warning: " + warning.get<std::string>());
   } else if (stage.name == "train") {
     lines = train_lines(r);
   } else if (stage.name == "transitions") {

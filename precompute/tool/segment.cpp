@@ -18,6 +18,7 @@
 #include <memory>
 #include <mutex>
 
+#include "film/checkup.h"
 #include "film/contact.h"
 #include "film/extract.h"
 #include "film/matte.h"
@@ -202,8 +203,9 @@ class KeyingPass {
   std::optional<Error> write_fault_;
 };
 
-Result<void> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
-                                 const MatteConfig& matte, const std::vector<Frame>& sampled) {
+/// Returns the share of the subject that shows as holes, the median of the frames shown.
+Result<double> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
+                                   const MatteConfig& matte, const std::vector<Frame>& sampled) {
   std::vector<Frame> frames;
   std::vector<KeyedFrame> keyed;
   Keyer keyer(screen, matte);
@@ -215,11 +217,18 @@ Result<void> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
     keyed.push_back(std::move(frame));
     i += 2 * stride;
   }
-  if (frames.empty()) return {};
+  if (frames.empty()) return 0.0;
   const auto png = encode_png(make_contact_sheet(frames, keyed, {}));
   if (!png) return png.error();
-  return write_file(run.project.path("contact.png"),
-                    {reinterpret_cast<const char*>(png->data()), png->size()});
+  if (auto wrote = write_file(run.project.path("contact.png"),
+                              {reinterpret_cast<const char*>(png->data()), png->size()});
+      !wrote)
+    return wrote.error();
+  std::vector<double> holes;
+  for (const KeyedFrame& frame : keyed) holes.push_back(hole_share(frame, frame.blobs.front()));
+  const auto middle = holes.begin() + std::ssize(holes) / 2;
+  std::nth_element(holes.begin(), middle, holes.end());
+  return *middle;
 }
 
 /// The keyed frame at `position`, its parts boxed, as a PNG of the work folder.
@@ -410,17 +419,29 @@ std::string source_name(const std::string& path) {
   return (film.has_filename() ? film : film.parent_path()).filename().string();
 }
 
-/// What the film is that plain ones are not.
-std::vector<std::string> notes_on(const FilmInfo& info) {
-  std::vector<std::string> notes;
+/// What a person ought to know of the film before relying on its sprites; `holes`: the share of the
+/// subject that shows as such.
+std::vector<std::string> warnings_of(const FilmInfo& info, const ScreenModel& screen,
+                                     const MatteConfig& matte, double holes) {
+  constexpr double kManyHoles = 0.03;
+  std::vector<std::string> out;
   if (info.transfer != Transfer::Sdr)
-    notes.push_back(std::string(info.transfer == Transfer::Hlg ? "HLG" : "PQ") +
-                    " is mapped to plain video by a fixed curve");
+    out.push_back(std::string(info.transfer == Transfer::Hlg ? "HLG" : "PQ") +
+                  " is mapped to plain video by a fixed curve");
   if (info.interlaced)
-    notes.push_back(
+    out.push_back(
         "the film is interlaced: its frames hold two moments each, and moving edges become combs; "
         "due: ffmpeg -i FILM -vf bwdif out.mp4");
-  return notes;
+  const bool keyed = screen.kind != KeyKind::None && screen.kind != KeyKind::Alpha;
+  if (!keyed && matte != MatteConfig{.shadow = matte.shadow})
+    out.push_back("clip-black, clip-white, edge and despill change what is keyed: nothing is");
+  if (!keyed && matte.shadow)
+    out.push_back("shadow: nothing is keyed, so no background is known that a shadow darkens");
+  if (keyed && holes > kManyHoles)
+    out.push_back(std::to_string(std::lround(100 * holes)) +
+                  " % of the subject is too like the background and shows as holes (or has "
+                  "holes); look at contact.png");
+  return out;
 }
 
 SubjectChoice subject_of(const std::string& text) {
@@ -449,15 +470,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   report(run, kSampled);
   const auto screen = measure_screen(*sampled, *key);
   if (!screen) return Error{screen.error().code, run.film + ": " + screen.error().message};
-  if (run.listener.note)
-    for (const std::string& note : notes_on(info)) run.listener.note(note);
   if (run.listener.note) run.listener.note("background: " + screen->reason);
-  const bool keyed = screen->kind != KeyKind::None && screen->kind != KeyKind::Alpha;
-  if (run.listener.note && !keyed && *matte != MatteConfig{.shadow = matte->shadow})
-    run.listener.note("clip-black, clip-white, edge and despill change what is keyed: nothing is");
-
-  if (run.listener.note && !keyed && matte->shadow)
-    run.listener.note("shadow: nothing is keyed, so no background is known that a shadow darkens");
 
   const auto store = KeyedStore::open(run.project, origin);
   if (!store) return store.error();
@@ -490,14 +503,15 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (!resumed) return resumed.error();
   if (auto made = make_folder(run.project.path("sprites")); !made) return made.error();
   if (auto cut = cut_sprites(run, *store, *extraction, *resumed); !cut) return cut.error();
-  if (auto sheet = write_contact_sheet(run, *screen, *matte, *sampled); !sheet)
-    return sheet.error();
+  const auto holes = write_contact_sheet(run, *screen, *matte, *sampled);
+  if (!holes) return holes.error();
   if (auto wrote = write_file(run.project.path("samples.csv"), table); !wrote) return wrote.error();
   const auto dropped = write_dropped(run, *store, info, *summaries, *extraction);
   if (!dropped) return dropped.error();
   Json result = segment_result(name, info, *screen, *extraction, stride_of(run.settings));
   result["surplus"] = reader->surplus();
   result["dropped"] = *dropped;
+  result["warnings"] = warnings_of(info, *screen, *matte, *holes);
   if (const auto& floor = extraction->floor) {
     result["floor"] = {{"horizon", floor->horizon},
                        {"ground_line", floor->line},

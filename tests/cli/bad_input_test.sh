@@ -51,6 +51,15 @@ expect 3 vsprite segment two.mp4 --subject 3
 says "--subject 3"; one_sentence
 expect 2 vsprite segment two.mp4 --subject both
 film circle circle.mp4 100
+# What is wrong with a film that can be used all the same is said without being asked for.
+ffmpeg -nostdin -v error -i circle.mp4 -vf tinterlace=interleave_top,setfield=tff -c:v libx264 -preset ultrafast \
+  -x264opts tff=1 fields.mp4 || fail "ffmpeg"
+expect 0 vsprite segment fields.mp4
+prints "warning: the film is interlaced"
+expect 0 vsprite segment circle.mp4
+grep -q 'warning: ' "$room/stdout" && fail "a warning of a film that is as due"
+expect 0 vsprite segment fields.mp4 --json
+is_json /warnings/0
 head -c $(($(stat -c %s circle.mp4) / 2)) circle.mp4 >short.mp4
 expect 3 vsprite build short.mp4
 says "short.mp4"; one_sentence

@@ -75,6 +75,6 @@ expect 0 vsprite validate cast.vsp
 sections cast.vsp | grep -q SHDW || fail "no section SHDW in a cast"
 
 # A film that brings its own coverage has no background that a shadow darkens.
-expect 0 vsprite segment walk.mp4 --key none --min-clip 2 --work none.work --shadow --verbose
-says "nothing is keyed"
+expect 0 vsprite segment walk.mp4 --key none --min-clip 2 --work none.work --shadow
+prints "warning: shadow: nothing is keyed"
 finish
