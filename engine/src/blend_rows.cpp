@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Porter and Duff's "over" along rows. A matte is mostly clear and opaque runs: a vector of either
-// kind costs a test, and only the pixels of an edge are mixed. In linear light an edge pixel goes
-// through tables, one at a time: that is faster than powers in lanes, because edges are narrow.
+// kind costs a test, and only the pixels of an edge are mixed. Premultiplied codes of an edge, and
+// the way from light back to codes, go through tables, one at a time.
 #include "blend_rows.h"
 
 #include <algorithm>
@@ -23,49 +23,49 @@ namespace vsprite::detail::HWY_NAMESPACE {
 namespace {
 
 // canvas is opaque; the channels of `over` are premultiplied linear light.
-HWY_INLINE void mix_linear(std::uint8_t* canvas, const Deep* over, std::uint32_t alpha) {
-  const std::uint32_t rest = 65535u - alpha;
+HWY_INLINE void mix_linear(std::uint8_t* canvas, const Deep* over) {
+  const std::uint32_t rest = 65535u - over[3];
   for (int c = 0; c < 3; ++c) {
-    const std::uint32_t under = kLinear[canvas[c]] * rest;
-    canvas[c] = kEncoded[std::min(65535u, over[c] + ((under + (under >> 16) + 1) >> 16))];
+    const std::uint32_t sum = over[c] + (kLight[canvas[c]] * rest >> 16);
+    canvas[c] = kShortEncoded[short_index(std::min(65535u, sum))];
   }
 }
 
-HWY_INLINE void mix_linear(std::uint8_t* canvas, const std::uint8_t* over) {
-  const Deep* row = &kPremultipliedLinear[std::size_t{over[3]} << 8];
-  const Deep light[3] = {row[over[0]], row[over[1]], row[over[2]]};
-  mix_linear(canvas, light, over[3] * 257u);
+HWY_INLINE void light_pixel(const std::uint8_t* picture, Deep* out) {
+  const bool is_opaque = picture[3] == 255;
+  const Deep* row = is_opaque ? kLight.data() : &kPremultipliedLinear[std::size_t{picture[3]} << 8];
+  for (int c = 0; c < 3; ++c) out[c] = row[picture[c]];
+  out[3] = static_cast<Deep>(picture[3] * 257u);
 }
 
-std::size_t over_deep_row(std::uint8_t* canvas, const Deep* picture, std::size_t count) {
+HWY_INLINE void mix_linear(std::uint8_t* canvas, const std::uint8_t* over) {
+  Deep light[4];
+  light_pixel(over, light);
+  mix_linear(canvas, light);
+}
+
+std::size_t over_deep_pixels(std::uint8_t* canvas, const Deep* picture, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i, canvas += 4, picture += 4) {
     if (picture[3] == 0) continue;
     if (canvas[3] != 255) return i;
-    if (picture[3] == 65535) {
-      for (int c = 0; c < 3; ++c) canvas[c] = kEncoded[picture[c]];
-    } else {
-      mix_linear(canvas, picture, picture[3]);
-    }
+    mix_linear(canvas, picture);
   }
   return count;
 }
 
-void to_deep_row(const std::uint8_t* picture, Deep* out, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i, picture += 4, out += 4) {
-    const std::uint32_t alpha = picture[3];
-    if (alpha == 0) {
-      std::memset(out, 0, 4 * sizeof(Deep));
-      continue;
-    }
-    const Deep* row = &kPremultipliedLinear[std::size_t{alpha} << 8];
-    out[0] = row[picture[0]];
-    out[1] = row[picture[1]];
-    out[2] = row[picture[2]];
-    out[3] = static_cast<Deep>(alpha * 257u);
-  }
+void to_deep_pixels(const std::uint8_t* picture, Deep* out, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) light_pixel(picture + 4 * i, out + 4 * i);
 }
 
 #if HWY_TARGET == HWY_SCALAR  // a CPU without vectors: the same numbers, a byte at a time
+
+std::size_t over_deep_row(std::uint8_t* canvas, const Deep* picture, std::size_t count) {
+  return over_deep_pixels(canvas, picture, count);
+}
+
+void to_deep_row(const std::uint8_t* picture, Deep* out, std::size_t count) {
+  to_deep_pixels(picture, out, count);
+}
 
 std::uint8_t over_255(std::uint32_t x) {
   return static_cast<std::uint8_t>((x + 128 + ((x + 128) >> 8)) >> 8);
@@ -142,6 +142,8 @@ using Bytes = hn::Repartition<std::uint8_t, Words>;
 using Pairs = hn::Repartition<std::uint16_t, Words>;
 using WordVector = hn::Vec<Words>;
 using WordMask = hn::Mask<Words>;
+using FewBytes = hn::Rebind<std::uint8_t, Pairs>;  // of as many pixels as Pairs holds
+using FewWords = hn::Repartition<std::uint32_t, FewBytes>;
 
 // A whole vector of pixels, or the first few of one at the end of a row.
 struct Whole {
@@ -201,18 +203,12 @@ HWY_INLINE void over_vector(const Access& access, std::uint8_t* canvas,
   access.store(mixed_encoded(access.load(canvas), over), canvas);
 }
 
-// A canvas is wider than what a cache foresees: the row after the next one is asked for by hand.
-HWY_INLINE void prefetch_row(const std::uint8_t* row, std::size_t count) {
-  constexpr std::size_t kLine = 64;
-  for (std::size_t i = 0; i < 4 * count; i += kLine) hwy::Prefetch(row + i);
-}
-
 void over_encoded_rows(CanvasRows canvas, PictureRows picture, std::size_t count,
                        std::size_t rows) {
   const std::size_t lanes = hn::Lanes(Words());
   const WordMask tail = hn::FirstN(Words(), count % lanes);
   for (; rows > 0; --rows, canvas.first += canvas.stride, picture.first += picture.stride) {
-    if (rows > 2) prefetch_row(canvas.first + 2 * canvas.stride, count);
+    if (rows > 2) prefetch(canvas.first + 2 * canvas.stride, count);
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes)
       over_vector(Whole{}, canvas.first + 4 * i, picture.first + 4 * i);
@@ -256,6 +252,87 @@ std::size_t over_linear_row(std::uint8_t* canvas, const std::uint8_t* picture, s
   if (i == count) return i;
   return i + over_linear_vector(First{hn::FirstN(Words(), count - i)}, canvas + 4 * i,
                                 picture + 4 * i, count - i);
+}
+
+// kLight of every lane.
+template <class V>
+HWY_INLINE V light_of(V code) {
+  const Pairs d;
+  const hn::RebindToSigned<Pairs> numbers;
+  const auto& p = kLightPolynomial;
+  const V x = hn::Mul(code, hn::Set(d, std::uint16_t{257}));
+  V curve = hn::Sub(hn::Set(d, p[3]), hn::MulHigh(x, hn::Set(d, p[4])));
+  for (const std::uint16_t next : {p[2], p[1], p[0]})
+    curve = hn::Add(hn::Set(d, next), hn::MulHigh(x, curve));
+  const auto below =
+      hn::Lt(hn::BitCast(numbers, code), hn::Set(numbers, static_cast<std::int16_t>(kLightKnee)));
+  return hn::IfThenElse(hn::RebindMask(d, below), hn::Mul(code, hn::Set(d, kLightBelow)), curve);
+}
+
+HWY_INLINE bool all_opaque(hn::Vec<FewWords> v) {
+  const auto top = hn::Set(FewWords(), 0xFF000000u);
+  return hn::AllTrue(FewWords(), hn::Eq(hn::And(v, top), top));
+}
+
+void to_deep_row(const std::uint8_t* picture, Deep* out, std::size_t count) {
+  const Pairs d;
+  const FewWords pixels;
+  const std::size_t step = hn::Lanes(pixels);
+  const auto top = hn::Set(pixels, 0xFF000000u);
+  const auto alphas =
+      hn::BitCast(d, hn::Set(hn::Repartition<std::uint64_t, Pairs>(), std::uint64_t{0xFFFF} << 48));
+  std::size_t i = 0;
+  for (; i + step <= count; i += step) {
+    const auto bytes = hn::LoadU(FewBytes(), picture + 4 * i);
+    const auto v = hn::BitCast(pixels, bytes);
+    const auto hard = hn::Or(hn::Eq(hn::And(v, top), top), hn::Eq(v, hn::Zero(pixels)));
+    if (!hn::AllTrue(pixels, hard)) {
+      to_deep_pixels(picture + 4 * i, out + 4 * i, step);
+      continue;
+    }
+    const auto code = hn::PromoteTo(d, bytes);
+    const auto alpha = hn::And(hn::Mul(code, hn::Set(d, std::uint16_t{257})), alphas);
+    hn::StoreU(hn::Or(alpha, hn::AndNot(alphas, light_of(code))), d, out + 4 * i);
+  }
+  to_deep_pixels(picture + 4 * i, out + 4 * i, count - i);
+}
+
+// Lanes mix; the way back to codes is a table's.
+std::size_t over_deep_row(std::uint8_t* canvas, const Deep* picture, std::size_t count) {
+  const Pairs d;
+  const std::size_t step = hn::Lanes(FewWords());
+  alignas(16) static constexpr std::uint8_t kAlphas[16] = {6,  7,  6,  7,  6,  7,  6,  7,
+                                                           14, 15, 14, 15, 14, 15, 14, 15};
+  const auto spread = hn::BitCast(d, hn::LoadDup128(Bytes(), kAlphas));
+  const auto full = hn::Set(d, std::uint16_t{65535});
+  HWY_ALIGN std::uint16_t places[hn::MaxLanes(d)];
+  std::size_t i = 0;
+  for (; i + step <= count; i += step) {
+    const auto over = hn::LoadU(d, picture + 4 * i);
+    if (hn::AllTrue(d, hn::Eq(over, hn::Zero(d)))) continue;
+    std::uint8_t* here = canvas + 4 * i;
+    const auto bytes = hn::LoadU(FewBytes(), here);
+    if (!all_opaque(hn::BitCast(FewWords(), bytes))) {
+      const std::size_t done = over_deep_pixels(here, picture + 4 * i, step);
+      if (done < step) return i + done;
+      continue;
+    }
+    const auto alpha = hn::TableLookupBytes(over, spread);
+    auto sum = over;
+    if (!hn::AllTrue(d, hn::Eq(alpha, full))) {
+      const auto under = light_of(hn::PromoteTo(d, bytes));
+      sum = hn::SaturatedAdd(over, hn::MulHigh(under, hn::Not(alpha)));
+    }
+    const auto thin = hn::Add(hn::ShiftRight<4>(sum), hn::Set(d, std::uint16_t{3840}));
+    hn::Store(hn::Min(sum, thin), d, places);  // short_index
+    for (std::size_t k = 0; k < step; ++k) {
+      const std::uint16_t* at = places + 4 * k;
+      here[4 * k] = kShortEncoded[at[0]];
+      here[4 * k + 1] = kShortEncoded[at[1]];
+      here[4 * k + 2] = kShortEncoded[at[2]];
+    }
+  }
+  return i + over_deep_pixels(canvas + 4 * i, picture + 4 * i, count - i);
 }
 
 // (w a + (256 - w) b) / 256 in 16 bits, 0 < w < 256.
@@ -348,7 +425,7 @@ void over_between_rows(CanvasRows canvas, PictureRows picture, Between at, std::
                        std::size_t count, std::size_t rows) {
   const std::size_t lanes = hn::Lanes(Words());
   for (std::size_t row = 0; row < rows; ++row)
-    prefetch_row(canvas.first + static_cast<std::ptrdiff_t>(row) * canvas.stride, count);
+    prefetch(canvas.first + static_cast<std::ptrdiff_t>(row) * canvas.stride, count);
   std::size_t i = 0;
   for (; i + lanes <= count; i += lanes) {
     over_between_strip(Whole{}, {canvas.first + 4 * i, canvas.stride},
@@ -387,6 +464,11 @@ std::size_t over_linear(std::uint8_t* canvas, const std::uint8_t* picture,
 
 std::size_t over_deep(std::uint8_t* canvas, const Deep* picture, std::size_t count) noexcept {
   return HWY_DYNAMIC_DISPATCH(over_deep_row)(canvas, picture, count);
+}
+
+void prefetch(const std::uint8_t* row, std::size_t count) noexcept {
+  constexpr std::size_t kLine = 64;
+  for (std::size_t i = 0; i < 4 * count; i += kLine) hwy::Prefetch(row + i);
 }
 
 void to_deep(const std::uint8_t* picture, Deep* out, std::size_t count) noexcept {

@@ -34,6 +34,9 @@ std::size_t over_linear(std::uint8_t* canvas, const std::uint8_t* picture,
                         std::size_t count) noexcept;
 std::size_t over_deep(std::uint8_t* canvas, const Deep* picture, std::size_t count) noexcept;
 
+/// Asks for what is about to be drawn on: a canvas is wider than what a cache foresees.
+void prefetch(const std::uint8_t* row, std::size_t count) noexcept;
+
 /// Premultiplied encoded to premultiplied linear.
 void to_deep(const std::uint8_t* picture, Deep* out, std::size_t count) noexcept;
 

@@ -218,6 +218,7 @@ struct Column {
 };
 
 constexpr int kBand = 16;  // rows that are made ready at a time
+constexpr int kAhead = 4;  // rows of the canvas that are on their way
 
 void draw_column_encoded(std::uint8_t* canvas, std::ptrdiff_t stride, const ImageView& picture,
                          int first_row, int rows, const Column& column) {
@@ -244,6 +245,7 @@ void draw_column_linear(std::uint8_t* canvas, std::ptrdiff_t stride, const Image
   if (column.between.above != 0) take(first_row - 1, 1);
   for (int r = 0; r < rows; ++r, canvas += stride) {
     const int slot = r & 1;
+    if (rows - r > kAhead) detail::prefetch(canvas + kAhead * stride, column.count);
     take(first_row + r, slot);
     detail::between_deep(deep[1 - slot], deep[slot], column.between, column.opacity, mixed,
                          column.count);
@@ -276,7 +278,10 @@ void draw_unscaled(Image& canvas, const ImageView& picture, Vec2 top_left,
                            static_cast<std::size_t>(y1 - y0));
       return;
     }
-    for (int y = y0; y < y1; ++y) put_linear(at(x0, y), picture.pixel(left, y - down.first), count);
+    for (int y = y0; y < y1; ++y) {
+      if (y1 - y > kAhead) detail::prefetch(at(x0, y + kAhead), count);
+      put_linear(at(x0, y), picture.pixel(left, y - down.first), count);
+    }
     return;
   }
   for (int x = x0; x < x1; x += kChunk) {

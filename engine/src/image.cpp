@@ -66,12 +66,36 @@ constexpr std::array<std::uint16_t, 65536> make_premultiplied_table() {
   return table;
 }
 
+constexpr std::array<std::uint16_t, 256> make_light_table() {
+  const auto times = [](std::uint32_t a, std::uint32_t b) { return a * b >> 16; };
+  const auto& p = detail::kLightPolynomial;
+  std::array<std::uint16_t, 256> table{};
+  for (std::uint32_t e = 0; e < 256; ++e) {
+    const std::uint32_t x = 257 * e;
+    const std::uint32_t curve =
+        p[0] + times(x, p[1] + times(x, p[2] + times(x, p[3] - times(x, p[4]))));
+    table[e] = static_cast<std::uint16_t>(e < detail::kLightKnee ? detail::kLightBelow * e : curve);
+  }
+  return table;
+}
+
+// Of values that share an entry the middle one gives its code.
+constexpr auto make_short_encoded_table(const std::array<std::uint8_t, 65536>& encoded) {
+  std::array<std::uint8_t, detail::short_index(65535) + 1> table{};
+  for (std::size_t i = 0; i < table.size(); ++i)
+    table[i] = encoded[i < 4096 ? i : 16 * (i - 3840) + 8];
+  return table;
+}
+
 }  // namespace
 
 namespace detail {
 constexpr std::array<std::uint16_t, 256> kLinear = make_linear_table();
 constexpr std::array<std::uint8_t, 65536> kEncoded = make_encoded_table();
 constexpr std::array<std::uint16_t, 65536> kPremultipliedLinear = make_premultiplied_table();
+constexpr std::array<std::uint16_t, 256> kLight = make_light_table();
+constexpr std::array<std::uint8_t, short_index(65535) + 1> kShortEncoded =
+    make_short_encoded_table(kEncoded);
 }  // namespace detail
 
 std::uint16_t linear_from_srgb(std::uint8_t encoded) noexcept { return detail::kLinear[encoded]; }

@@ -7,6 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
+
+#include "blend_rows.h"
+#include "srgb_tables.h"
 
 namespace vsprite {
 namespace {
@@ -119,6 +123,45 @@ TEST(Compose, RunsOfEveryLengthAreTheNaiveReference) {
       ASSERT_NEAR(canvas.rgba[static_cast<std::size_t>(k)], due, 1)
           << "round " << round << " at " << x << "," << y << " channel " << c;
     }
+  }
+}
+
+// Whatever the lanes of this CPU, the numbers are those of one pixel after the other by the tables.
+TEST(Compose, LinesInLinearLightAreThoseOfTheTables) {
+  constexpr std::size_t kCount = 5003;
+  const Image picture = matte_of_runs(kCount, 1, 3);
+  const Image ground = random_picture(kCount, 1, 4);
+  std::vector<detail::Deep> deep(4 * kCount);
+  detail::to_deep(picture.rgba.data(), deep.data(), kCount);
+  Image canvas = ground;
+  for (std::size_t i = 3; i < canvas.rgba.size(); i += 4) canvas.rgba[i] = 255;
+  Image due = canvas;
+  for (std::size_t i = 0; i < 4 * kCount; ++i) {
+    const unsigned value = picture.rgba[i], alpha = picture.rgba[i | 3];
+    const unsigned light = i % 4 == 3     ? 257 * alpha
+                           : alpha == 255 ? detail::kLight[value]
+                                          : detail::kPremultipliedLinear[alpha << 8 | value];
+    ASSERT_EQ(deep[i], light) << i;
+    if (i % 4 == 3 || alpha == 0) continue;
+    const unsigned under = detail::kLight[canvas.rgba[i]] * (65535 - 257 * alpha) >> 16;
+    const unsigned sum = std::min(65535u, light + under);
+    due.rgba[i] = detail::kShortEncoded[detail::short_index(sum)];
+  }
+  ASSERT_EQ(detail::over_deep(canvas.rgba.data(), deep.data(), kCount), kCount);
+  EXPECT_EQ(canvas.rgba, due.rgba);
+  canvas.rgba[4 * 4001 + 3] =
+      254;  // stops where the canvas is not opaque, and the picture is there
+  deep[4 * 4001 + 3] = 1;
+  EXPECT_EQ(detail::over_deep(canvas.rgba.data(), deep.data(), kCount), 4001u);
+}
+
+TEST(Compose, TheShortTablesAreWithinATenthOfACode) {
+  for (unsigned code = 0; code < 256; ++code) {
+    const unsigned light = detail::kLinear[code];
+    const unsigned step = code < 255 ? detail::kLinear[code + 1] - light : 600u;
+    EXPECT_NEAR(detail::kLight[code], light, 0.1 * step + 0.5) << code;
+    for (const unsigned near : {light, unsigned{detail::kLight[code]}})
+      EXPECT_EQ(detail::kShortEncoded[detail::short_index(near)], code);
   }
 }
 
