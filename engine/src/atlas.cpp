@@ -46,7 +46,7 @@ std::optional<Atlas::Placed> Atlas::insert(const TextureKey& key, int width, int
   const auto enter = [&](std::size_t index, const Rect& rect, Page page) {
     pages_[index].last_use = ++clock_;
     pages_[index].keys.push_back(key);
-    const AtlasSlot slot{static_cast<int>(index), {rect.x, rect.y, inner_width, inner_height}, {}};
+    const AtlasSlot slot{static_cast<int>(index), {rect.x, rect.y, inner_width, inner_height}};
     slots_[key] = slot;
     return Placed{slot, page};
   };

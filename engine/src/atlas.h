@@ -34,12 +34,17 @@ enum class PageForm : std::uint8_t {
 };
 constexpr std::size_t texel_bytes(PageForm form) { return form == PageForm::Halves ? 8 : 1; }
 
+/// A box without its corners, texels of a picture.
+struct Octagon {
+  float left = 0, top = 0, right = 0, bottom = 0;
+  std::array<float, 4> cuts{};  ///< along either side, clockwise from the top left
+};
+
 struct AtlasSlot {
   int page = 0;
   Rect rect;
-  /// The four corners of the picture that hold nothing: texels along either side, clockwise from
-  /// the top left.
-  std::array<float, 4> cuts{};
+  Octagon outline{};  ///< beyond it the picture is clear
+  Octagon core{};     ///< in it everything is opaque; empty: nothing is known
 };
 
 class Atlas {
@@ -49,8 +54,9 @@ class Atlas {
 
   /// Counts as a use of its page.
   std::optional<AtlasSlot> find(const TextureKey& key) noexcept;
-  void set_cuts(const TextureKey& key, const std::array<float, 4>& cuts) {
-    slots_[key].cuts = cuts;
+  void set_shape(const TextureKey& key, const Octagon& outline, const Octagon& core) {
+    slots_[key].outline = outline;
+    slots_[key].core = core;
   }
   bool has(const TextureKey& key) const noexcept { return slots_.count(key) != 0; }
 

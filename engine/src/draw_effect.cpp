@@ -121,7 +121,6 @@ void Renderer::Impl::encode(Program& program, bool flip) {
   program.set("frame_size",
               {static_cast<float>(frame.main.width), static_cast<float>(frame.main.height)});
   program.set("flip", {flip ? 1.0f : 0.0f});
-  program.set("dither", {config.dither ? 1.0f : 0.0f});
   gl::blend(device, BlendMode::Replace);
   gl::draw_rectangle(device, empty_stream);
 }

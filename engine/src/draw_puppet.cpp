@@ -168,18 +168,19 @@ void Renderer::draw_puppet(const Puppet& puppet, const PuppetPose& pose, PuppetS
   if (m.target == nullptr || skin_id.id < 0) return;
   const Skin& skin = brush.skins[static_cast<std::size_t>(skin_id.id)];
   if (skin.points != pose.points.size() || skin.views != pose.shares.size()) return;
-  m.select(Kind::Puppets, BlendMode::Over, skin_id.id);
-  if (rows_of(brush.shares.size() / 4 + skin.views) > kMostRows || brush.slices == kSlices) {
+  const detail::BatchState state{.kind = Kind::Puppets, .page = skin_id.id};
+  const bool follows = m.waiting > 0 && m.batches[m.waiting - 1].state == state;
+  if (!follows || brush.slices == kSlices ||
+      rows_of(brush.shares.size() / 4 + skin.views) > kMostRows) {
     m.flush();
-    m.select(Kind::Puppets, BlendMode::Over, skin_id.id);
+    brush.shares.clear();
   }
   if (brush.slices == 0 || brush.slices == kSlices) {
     if (!gl::clear_depth(m.device, m.target->main)) return;
     brush.slices = 0;
   }
   ++brush.slices;
-  if (m.batch.empty()) brush.shares.clear();
-
+  std::vector<float>& words = m.open(state).words;
   const auto base = static_cast<float>(brush.shares.size() / 4);
   for (const float share : pose.shares) brush.shares.insert(brush.shares.end(), {share, 0, 0, 0});
   const auto [low, high] = std::minmax_element(pose.depth.begin(), pose.depth.end());
@@ -210,17 +211,18 @@ void Renderer::draw_puppet(const Puppet& puppet, const PuppetPose& pose, PuppetS
     const bool convex =
         first && turns(p0, p1, p3) == turns(p1, p2, p3) && turns(p0, p1, p2) == turns(p0, p1, p3);
     const float cut = !quad ? 0.0f : first ? 1.0f : 2.0f;
-    m.push({p0.x, p0.y, p1.x, p1.y, p2.x, p2.y, p3.x, p3.y});
-    m.push(
+    const auto push = [&](std::initializer_list<float> v) { words.insert(words.end(), v); };
+    push({p0.x, p0.y, p1.x, p1.y, p2.x, p2.y, p3.x, p3.y});
+    push(
         {brush.steps[c[0]], brush.steps[c[1]], brush.steps[c[2]], quad ? brush.steps[c[3]] : 0.0f});
-    m.push({static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
-            static_cast<float>(c[3]), base, cut, convex ? 1.0f : 0.0f, slice});
+    push({static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]),
+          static_cast<float>(c[3]), base, cut, convex ? 1.0f : 0.0f, slice});
   }
   ++m.stats.sprites;
 }
 
-void Renderer::Impl::flush_puppets() {
-  const Skin& skin = puppets.skins[static_cast<std::size_t>(page)];
+void Renderer::Impl::flush_puppets(const detail::Batch& batch) {
+  const Skin& skin = puppets.skins[static_cast<std::size_t>(batch.state.page)];
   const std::size_t rows = rows_of(puppets.shares.size() / 4);
   puppets.shares.resize(rows * kRow * 4, 0);
   puppets.shares_texture = gl::upload_numbers(device, puppets.shares_texture, kRow,
@@ -239,13 +241,10 @@ void Renderer::Impl::flush_puppets() {
   program.set("page_size", {static_cast<float>(skin.width), static_cast<float>(skin.height)});
   program.set("view_count", {static_cast<float>(skin.views)});
   program.set("point_count", {static_cast<float>(skin.points)});
-  gl::blend(device, blend);
+  gl::blend(device, batch.state.blend);
   gl::use_depth(device, true);
-  gl::draw(device, puppets.stream, batch.data(), batch.size() / 20);
+  gl::draw(device, puppets.stream, batch.words.data(), batch.words.size() / 20);
   gl::use_depth(device, false);
-  batch.clear();
-  puppets.shares.clear();
-  ++stats.batches;
 }
 
 }  // namespace vsprite

@@ -50,7 +50,8 @@ struct Surface {
 
 constexpr int kPageSide = 2048;
 constexpr std::size_t kHalvings = 3;  // of the frame, for the backdrop's light
-constexpr int kMostTaps = 4;  // samples along a pixel's footprint
+constexpr int kMostTaps = 4;          // samples along a pixel's footprint
+constexpr int kSpriteVectors = 9;     // of an instance
 
 enum class Kind { Nothing, Sprites, Shapes, Triangles, Puppets };
 
@@ -74,6 +75,47 @@ struct PuppetBrush {
   std::vector<std::uint32_t> order;
   std::vector<float> keys;
   int slices = 0;  // of depth, used since it was cleared; 0: it has to be
+};
+
+/// Cells of the frame, 64 to a side, a bit each: what a batch is drawn on.
+struct Cells {
+  static constexpr int kSide = 64;
+  /// Inclusive; the least there is where nothing is said.
+  struct Span {
+    int left = 0, top = 0, right = kSide - 1, bottom = kSide - 1;
+    std::uint64_t columns() const { return ~std::uint64_t{0} >> (63 - right + left) << left; }
+  };
+  std::array<std::uint64_t, kSide> rows{};
+
+  bool meet(const Span& span) const {
+    for (int y = span.top; y <= span.bottom; ++y)
+      if ((rows[static_cast<std::size_t>(y)] & span.columns()) != 0) return true;
+    return false;
+  }
+  void add(const Span& span) {
+    for (int y = span.top; y <= span.bottom; ++y)
+      rows[static_cast<std::size_t>(y)] |= span.columns();
+  }
+};
+
+/// What all instances of a batch have in common.
+struct BatchState {
+  Kind kind = Kind::Nothing;
+  BlendMode blend = BlendMode::Over;
+  int page = -1;      // of puppets: their skin
+  int old_page = -1;  // -1: nothing fades
+  int taps = 1;
+  bool wrapped = false;
+  friend bool operator==(const BatchState&, const BatchState&) = default;
+};
+
+struct Batch {
+  BatchState state;
+  Cells cells;
+  std::vector<float> words;
+  /// Of sprites: the same instances, each no larger than what it hides for certain.
+  std::vector<float> cores;
+  float hidden = 0;  ///< pixels of all cores
 };
 
 /// One instance of the sprite shader, whose words these are.
@@ -116,15 +158,12 @@ struct Renderer::Impl {
   Rect window_fit;
   Camera camera;
 
-  detail::Kind kind = detail::Kind::Nothing;
-  BlendMode blend = BlendMode::Over;
-  int page = -1, old_page = -1;  // of a batch of sprites; old_page -1: none of them fades
-  int taps = 1;
-  bool wrapped = false;
   std::array<detail::gl::Target, detail::kHalvings> backdrop{};  ///< each half of the one before
   bool has_backdrop = false;                                     ///< of the present surface
-  std::vector<float> batch;
+  std::vector<detail::Batch> batches;  ///< the first `waiting` of them are still to be drawn
+  std::size_t waiting = 0;
   std::vector<std::uint16_t> staging;
+  std::vector<float> turned;  ///< the cores of a batch, the last one first
   std::uint32_t uncached = 0;
 
   explicit Impl(const RendererConfig& c, detail::gl::Device d)
@@ -134,21 +173,26 @@ struct Renderer::Impl {
   ~Impl();
 
   Result<void> set_up();
+  /// Draws what waits.
   void flush();
-  void flush_puppets();
+  void flush(const detail::Batch& sprites_or_shapes);
+  /// Cores from front to back and then all, which depth keeps from what is hidden. False if that
+  /// is not worth it.
+  bool draw_by_depth(const detail::Batch& sprites, detail::Program& program);
+  void flush_puppets(const detail::Batch& batch);
   Result<void> set_up_puppets();
   void free_puppets();
-  void select(detail::Kind wanted, BlendMode mode, int wanted_page = -1, int wanted_old = -1,
-              int wanted_taps = 1, bool wanted_wrap = false);
+  /// The batch that takes what is drawn next, within `where`. What shares no cell with it may be
+  /// drawn earlier or later: few changes of state, and pictures that come up while it waits are
+  /// sent before anything is drawn from their pages. Valid until the next call.
+  detail::Batch& open(const detail::BatchState& state, const detail::Cells::Span& where = {});
+  detail::Cells::Span cells_of(Vec2 center, Vec2 half_size) const noexcept;
   void use_surface(detail::Surface* surface);
   void drop_frame();
   std::optional<detail::AtlasSlot> place(const TextureKey& key, int width, int height,
                                          detail::PageForm form);
   std::optional<detail::AtlasSlot> store(const TextureKey& key, ImageView image, int side = 1);
   std::optional<detail::AtlasSlot> store(const TextureKey& key, BlockView blocks);
-  void push(std::initializer_list<float> values) {
-    batch.insert(batch.end(), values.begin(), values.end());
-  }
   void set_axes(const SpriteDraw& sprite, detail::Picture& picture) const;
   /// So that `texel` of the picture comes to lie at `position`.
   void put_at(Vec2 position, Vec2 texel, detail::Picture& picture) const;

@@ -4,7 +4,7 @@
 // One sprite per instance: a box without its clear corners, eight vertices of a strip.
 // place: xy frame pixels of the picture's top left corner, z width of the footprint in pixels, w share
 // of the other picture     axes: frame pixels per texel, along x and y     rect, other: x, y, width,
-// height in the page, texels     box: what is covered, texels of the picture     cuts: off its corners,
+// height in the page, texels     box: what is covered (or, by the sign of order.z, hidden), texels of the picture     cuts: off its corners,
 // clockwise from the top left     shift: xy of the other picture's corner, texels, z share of the
 // backdrop's light, w its reach, texels     tint, fog: linear
 layout(location = 0) in vec4 place;
@@ -18,6 +18,7 @@ layout(location = 7) in vec4 other;
 layout(location = 8) in vec4 shift;
 uniform vec2 frame_size;
 uniform vec2 page_size;
+uniform vec3 order;  // depth of the first instance, from one to the next; 1, or -1: a box that is all opaque
 out vec2 texel;  // within the picture; where one sample is taken, of the page, 0..1
 #if TAPS > 1 || defined(FADE) || defined(WRAP)
 flat out vec4 picture;
@@ -41,6 +42,7 @@ void main() {
 #if TAPS > 1
   pad += 0.75 * place.z / max(min(size, vec2(1.0)), vec2(0.01));
 #endif
+  pad *= order.z;
   vec2 low = box.xy - pad, high = box.zw + pad;
   // In pairs from the top down, as a strip goes.
   int k = gl_VertexID;
@@ -54,7 +56,7 @@ void main() {
   else if (k == 6) at = vec2(low.x + cuts.w, high.y);
   else at = vec2(high.x - cuts.z, high.y);
   vec2 point = place.xy + axes.xy * at.x + axes.zw * at.y;
-  gl_Position = vec4(2.0 * point / frame_size - 1.0, 0.0, 1.0);
+  gl_Position = vec4(2.0 * point / frame_size - 1.0, order.x + order.y * float(gl_InstanceID), 1.0);
   own = vec4(tint.rgb * (1.0 - fog.a), 1.0) * tint.a;
   veil = vec4(fog.rgb * fog.a * tint.a, 0.0);
 #ifdef FADE

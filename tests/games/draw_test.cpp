@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,6 +40,21 @@ class Draw : public testing::GlTest {
     return largest_difference(renderer().read_pixels(), canvas);
   }
 };
+
+/// White, opaque up to a few pixels from its edge, and clear beyond it.
+Image soft_disc(int side, float radius) {
+  Image image = make_image(side, side, 255, 255, 255);
+  for (int y = 0; y < side; ++y) {
+    for (int x = 0; x < side; ++x) {
+      const float u = static_cast<float>(x) + 0.5f - static_cast<float>(side) / 2;
+      const float v = static_cast<float>(y) + 0.5f - static_cast<float>(side) / 2;
+      const float in = std::clamp((radius - std::sqrt(u * u + 4 * v * v)) / 8, 0.0f, 1.0f);
+      std::fill_n(&image.rgba[std::size_t(y * side + x) * 4], 4,
+                  static_cast<std::uint8_t>(std::lround(255 * in)));
+    }
+  }
+  return image;
+}
 
 TEST_F(Draw, IsTheCompositorsPictureAtEverySubPixelPlace) {
   const Image picture = noise_picture(31, 27, 1);
@@ -151,6 +168,60 @@ TEST_F(Draw, DrawsManySpritesAsOneBatch) {
   EXPECT_EQ(renderer().stats().sprites, 100u);
   EXPECT_EQ(renderer().stats().uploads, 10u);
   EXPECT_EQ(renderer().stats().batches, 1u);
+}
+
+// Pictures of two kinds in turn: one call for each kind where they stand apart, and in the order of
+// the calls where they do not.
+TEST_F(Draw, WhatLiesApartSharesABatchAndWhatMeetsKeepsItsOrder) {
+  const Image red = make_image(8, 8, 255, 0, 0), blue = make_image(8, 8, 0, 0, 255);
+  const auto shot = [&](float step) {
+    renderer().begin_frame(192, 24);
+    for (int i = 0; i < 8; ++i) {
+      SpriteDraw s{.image = red, .key = {8, 1}, .position = {5 + step * static_cast<float>(i), 9}};
+      if (i % 2 != 0) s.fade = {.image = blue, .key = {8, 2}, .share = 1};
+      renderer().draw_sprite(s);
+    }
+    renderer().end_frame();
+    return renderer().read_pixels();
+  };
+  const Image apart = shot(22);
+  EXPECT_EQ(renderer().stats().batches, 2u);
+  const Image meeting = shot(4);
+  EXPECT_EQ(renderer().stats().batches, 8u);
+  for (int i = 0; i < 8; ++i) {
+    const std::uint32_t due = i % 2 != 0 ? 0x0000ffu : 0xff0000u;
+    EXPECT_EQ(color_at(apart, 7 + 22 * i, 12), due) << i;
+    EXPECT_EQ(color_at(meeting, 6 + 4 * i, 12), due) << i;
+  }
+}
+
+// A crowd that covers the frame many times, at once (from front to back where it is solid) and one
+// picture at a time.
+TEST_F(Draw, WhatIsHiddenIsNotDrawnAndNobodySeesIt) {
+  const Image fish = soft_disc(40, 26);
+  std::mt19937 random(5);
+  std::vector<SpriteDraw> crowd;
+  for (int i = 0; i < 300; ++i) {
+    const auto part = [&] { return static_cast<float>(random() % 1000) / 1000; };
+    SpriteDraw s{.image = fish, .key = {6, 1}, .position = {96 * part(), 80 * part()}};
+    s.anchor = {20, 20};
+    s.angle = 6 * part();
+    s.scale = 0.9f + part();
+    s.tint = {part(), part(), part(), i % 5 == 0 ? 0.5f : 1.0f};
+    crowd.push_back(s);
+  }
+  const auto shot = [&](bool at_once) {
+    renderer().begin_frame(96, 80);
+    for (const SpriteDraw& s : crowd) {
+      renderer().draw_sprite(s);
+      if (!at_once) renderer().take_backdrop();  // what waits is drawn
+    }
+    renderer().end_frame();
+    return renderer().read_pixels();
+  };
+  const Image at_once = shot(true);
+  EXPECT_EQ(renderer().stats().batches, 2u);  // what is solid, then all
+  EXPECT_LE(largest_difference(at_once, shot(false)), 1);
 }
 
 // Half red and half blue is half the light of each; where only one of them lies, half is ground.

@@ -16,11 +16,13 @@
 //     renderer.end_frame();
 //
 // Positions are frame pixels, y down, moved and scaled by the camera. Everything appears in the
-// order of the calls; neighbours of one kind go to the GPU as one batch. A Renderer needs an
-// OpenGL 3.3 core or ES 3 (WebGL 2) context that is current in its thread from make_renderer until
-// the destructor has run; it calls no window system and links no OpenGL library. A context that is
-// lost (a driver's reset) takes its Renderer along: close it and the window and make both anew; what
-// a FrameCache holds is sent again, effects and layers are the game's to make.
+// order of the calls; what is of one kind goes to the GPU as one batch, also past others that it
+// does not meet, and where a batch covers the frame more than once, parts that are hidden for
+// certain are not drawn. A Renderer needs an OpenGL 3.3 core or ES 3 (WebGL 2) context that is
+// current in its thread from make_renderer until the destructor has run; it calls no window system
+// and links no OpenGL library. A context that is lost (a driver's reset) takes its Renderer along:
+// close it and the window and make both anew; what a FrameCache holds is sent again, effects and
+// layers are the game's to make.
 #pragma once
 
 #include <array>
