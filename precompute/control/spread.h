@@ -9,7 +9,8 @@
 // the same numbers in the same order wherever that is: the same bytes for any number of processes.
 //
 // Spread is what grows with the headings. Not spread: the transitions and their prices (16 bytes a
-// transition), which every process holds, and the gathered tables, which process 0 holds.
+// transition), which every process holds, and the gathered tables, which process 0 holds: it is the
+// largest, and more processes do not make it smaller than these two.
 #pragma once
 
 #include <cstddef>
