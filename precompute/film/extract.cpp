@@ -22,8 +22,9 @@ constexpr double kAreaJump = 3;       // from one frame to the next: a cut
 constexpr std::size_t kCutReach = 8;  // frames either side that a change of look is held against
 constexpr double kCutRatio = 6;
 constexpr double kCutFloor = 20;  // code values
-constexpr double kGroundShare = 0.002;
-constexpr int kGroundReach = 2;  // frames either side of the ground line's median
+constexpr double kGroundShare = 0.0002;
+constexpr double kHalf = 127.5;
+constexpr std::ptrdiff_t kGroundReach = 2;  // frames either side of the ground line's median
 
 using detail::distance;
 using detail::median;
@@ -187,27 +188,37 @@ void set_velocities(const Clip& clip, double fps, double sigma, const std::optio
   }
 }
 
-// The ground line of a frame, without the flicker of single frames.
-double steady_ground(std::span<const FrameSummary> frames, const Track& track, int f) {
-  std::vector<double> lines;
-  const int n = static_cast<int>(frames.size());
-  for (int k = std::max(f - kGroundReach, 0); k <= std::min(f + kGroundReach, n - 1); ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    if (!track.blob[at] || track.fate[at] != Fate::Kept) continue;
-    const auto blob = static_cast<std::size_t>(track.blob[at] - frames[at].blobs.data());
-    if (blob < frames[at].ground.size()) lines.push_back(frames[at].ground[blob]);
+// The ground line of every frame in a clip, without the flicker of single frames: the median of as
+// many frames of the clip on either side, so that steady motion stays as it is, at the ends too.
+std::vector<double> steady_ground(std::span<const FrameSummary> frames, const Track& track,
+                                  const std::vector<Clip>& clips) {
+  std::vector<double> steady(frames.size(), 0.0);
+  for (const Clip& clip : clips) {
+    std::vector<double> lines;
+    for (const Kept& kept : clip) {
+      const auto f = static_cast<std::size_t>(kept.frame);
+      const auto blob = static_cast<std::size_t>(track.blob[f] - frames[f].blobs.data());
+      lines.push_back(blob < frames[f].ground.size() ? frames[f].ground[blob] : 0.0);
+    }
+    const auto count = static_cast<std::ptrdiff_t>(lines.size());
+    for (std::ptrdiff_t k = 0; k < count; ++k) {
+      const auto reach = std::min({kGroundReach, k, count - 1 - k});
+      steady[static_cast<std::size_t>(clip[static_cast<std::size_t>(k)].frame)] =
+          median({lines.begin() + k - reach, lines.begin() + k + reach + 1});
+    }
   }
-  return median(lines);
+  return steady;
 }
 
 // The floor that the film shows or the settings know.
-Result<Ground> floor_of(std::span<const FrameSummary> frames, const Track& track,
+Result<Ground> floor_of(const std::vector<double>& ground, const Track& track,
                         const std::vector<Clip>& clips, const ExtractConfig& config) {
   std::vector<Standing> sights;
   for (const Clip& clip : clips)
-    for (const Kept& kept : clip)
-      sights.push_back({steady_ground(frames, track, kept.frame),
-                        std::sqrt(track.blob[static_cast<std::size_t>(kept.frame)]->area)});
+    for (const Kept& kept : clip) {
+      const auto f = static_cast<std::size_t>(kept.frame);
+      sights.push_back({ground[f], std::sqrt(track.blob[f]->area)});
+    }
   return find_floor(sights, config.floor, config.width);
 }
 
@@ -300,21 +311,38 @@ std::vector<double> ground_lines(const KeyedFrame& frame) {
   std::vector<double> lines;
   const auto width = static_cast<std::size_t>(frame.crop.width);
   for (const Blob& blob : frame.blobs) {
-    double below = 0;
+    const int left = blob.box.x, right = left + blob.box.width;
+    const int top = blob.box.y, bottom = top + blob.box.height;
+    // Where each column's coverage falls below a half for the last time: a soft skirt of little
+    // coverage moves that by less than a pixel, however wide it is.
+    std::vector<double> ends;
+    std::vector<std::uint8_t> ended(static_cast<std::size_t>(blob.box.width));
+    std::vector<int> below(ended.size());
     const double due = kGroundShare * blob.area;
-    double line = blob.box.y + blob.box.height;
-    for (int y = blob.box.y + blob.box.height - 1; y >= blob.box.y && due > 0; --y) {
-      double row = 0;
+    double sum = 0;
+    const auto beyond = [&](double y) { return sum - y * static_cast<double>(ends.size()); };
+    for (int y = bottom - 1; y >= top && (ends.empty() || beyond(y + 1.5) < due); --y) {
       const std::size_t start = static_cast<std::size_t>(y - frame.crop.y) * width;
-      for (int x = blob.box.x; x < blob.box.x + blob.box.width; ++x) {
+      for (int x = left; x < right; ++x) {
+        const auto column = static_cast<std::size_t>(x - left);
         const std::size_t at = start + static_cast<std::size_t>(x - frame.crop.x);
-        if (frame.labels[at] == blob.label) row += frame.straight.rgba[4 * at + 3] / 255.0;
+        if (ended[column]) continue;
+        const int alpha = frame.labels[at] == blob.label ? frame.straight.rgba[4 * at + 3] : 0;
+        if (alpha > kHalf) {
+          ends.push_back(y + 0.5 + (alpha - kHalf) / (alpha - below[column]));
+          sum += ends.back();
+          ended[column] = 1;
+        }
+        below[column] = alpha;
       }
-      if (below + row >= due) {
-        line = y + 1 - (due - below) / row;
-        break;
-      }
-      below += row;
+    }
+    std::sort(ends.begin(), ends.end(), std::greater<>());
+    double line = bottom;
+    sum = 0;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      sum += ends[k];
+      line = (sum - due) / static_cast<double>(k + 1);
+      if (k + 1 < ends.size() && line >= ends[k + 1]) break;
     }
     lines.push_back(line);
   }
@@ -333,13 +361,14 @@ Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
   const auto clips = split_clips(frames, *track, repeats, config, result);
   if (clips.empty()) return nothing_left(result, config);
   result.clips = static_cast<int>(clips.size());
+  const std::vector<double> ground = steady_ground(frames, *track, clips);
   if (config.floor.is_there()) {
-    const auto floor = floor_of(frames, *track, clips, config);
+    const auto floor = floor_of(ground, *track, clips, config);
     if (!floor) return floor.error();
     result.floor = *floor;
   }
   const auto depth = [&](int frame) {
-    return result.floor ? on_floor(*result.floor, 0, steady_ground(frames, *track, frame)).scale
+    return result.floor ? on_floor(*result.floor, 0, ground[static_cast<std::size_t>(frame)]).scale
                         : 1.0;
   };
   result.scale = film_scale(*track, clips, config.max_size, depth);
@@ -349,7 +378,7 @@ Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
     for (const Kept& kept : clips[c]) {
       const auto f = static_cast<std::size_t>(kept.frame);
       SampleRow row = make_row(frames[f], *track->blob[f], result.scale / depth(kept.frame));
-      if (config.ground) row.anchor_y = rounded(steady_ground(frames, *track, kept.frame), 1000);
+      if (config.ground) row.anchor_y = rounded(ground[f], 1000);
       row.sample = static_cast<int>(result.rows.size());
       row.clip = static_cast<int>(c);
       row.source = source(static_cast<int>(f));

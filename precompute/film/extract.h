@@ -83,7 +83,8 @@ std::vector<SampleRow> rows_on_floor(const Extraction& extraction);
 /// The row of the mirror image of `row`: left and right exchanged about its anchor.
 SampleRow mirrored(const SampleRow& row, int sample, int clip);
 
-/// Ground line of each blob of a keyed frame, film px: below it lies a five-hundredth of the blob.
+/// Ground line of each blob of a keyed frame, film px: below it lies a
+/// five-thousandth of the blob, by where the columns of its coverage fall below a half.
 std::vector<double> ground_lines(const KeyedFrame& frame);
 
 /// Cuts one sample's picture out of its keyed frame: straight alpha, area-averaged in linear light

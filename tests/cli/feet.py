@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 the vsprite authors
 # SPDX-License-Identifier: MIT
 # feet.py WORK : how far the anchor of every sprite of a work folder lies from its feet, px of the sprite. Fails where that
-# is more than one. The feet are the lowest end of a column: its last full pixel, and the coverage below it.
+# is more than one. The feet are the lowest place at which the coverage of a column falls below a half: thin ones have no
+# full pixel.
 import csv, struct, sys, zlib
 
 
@@ -34,9 +35,10 @@ def alphas(path):
 def feet_of(rows):
     lowest = 0
     for column in zip(*rows):
-        full = max((y for y, a in enumerate(column) if a >= 250), default=None)
-        if full is not None:
-            lowest = max(lowest, full + 1 + sum(column[full + 1:]) / 255)
+        last = max((y for y, a in enumerate(column) if a > 127), default=None)
+        if last is not None:
+            below = column[last + 1] if last + 1 < len(column) else 0
+            lowest = max(lowest, last + 0.5 + (column[last] - 127.5) / (column[last] - below))
     return lowest
 
 

@@ -9,7 +9,8 @@ expect 0 vsprite build floor.mp4 -o floor.vsp --horizon fit --focal 160 --json
 cp stdout built.json
 expect 0 vsprite validate floor.vsp; prints OK
 
-# Seen from the side, it stands where its feet are, on every frame.
+# It stands where its feet are, on every frame: far and near, and seen from the side.
+python3 "$(dirname "$0")/feet.py" floor.work || fail "the feet are not at the anchor"
 film=walking.mp4; "$BIN/make_film" walk $film 60 || fail "make_film"
 expect 0 vsprite segment $film --work flat.work --anchor ground
 python3 "$(dirname "$0")/feet.py" flat.work || fail "the feet are not at the anchor"
@@ -71,7 +72,7 @@ print("far: feet %d, %d px high; near: feet %d, %d px high" % (far[:2] + near[:2
 sys.exit(not (near[1] > 1.3 * far[1] and abs(far[2] / near[2] - 1) < 0.15))
 END
 # The same path given on the ground; another floor in the picture; none.
-expect 0 vsprite path floor.vsp --script round.txt --plane none --beam 2000
+expect 0 vsprite path floor.vsp --script round.txt --plane none --beam 5000
 circle 0 -62 65 >ground.txt
 circle 0 -62 65 | seen 60 208 160 >other.txt
 expect 0 vsprite path floor.vsp --script ground.txt --plane ground --size 160x120 --beam 2000 -o ground.mp4

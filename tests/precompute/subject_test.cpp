@@ -248,19 +248,39 @@ TEST(Extract, GroundAnchorLiesBelowTheCentroid) {
   }
 }
 
-TEST(Extract, GroundLineIsWhereTheLowestPartEnds) {
+TEST(Extract, GroundAnchorFollowsSteadyMotionDownThePictureToTheEndsOfTheClip) {
+  auto frames = walk(40);
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    frames[f].ground = {200 + 0.75 * static_cast<double>(f)};
+  const auto result = extract(frames, 30, "a.mp4", {.ground = true});
+  ASSERT_TRUE(result) << result.error().message;
+  ASSERT_EQ(result->rows.size(), 40u);
+  for (const SampleRow& row : result->rows) EXPECT_EQ(row.anchor_y, 200 + 0.75 * row.frame);
+}
+
+// A box of 8 x 30 from (10, 20) on, and `skirt` rows of little coverage below it.
+KeyedFrame box_with_skirt(int skirt) {
   KeyedFrame keyed;
-  keyed.crop = {10, 20, 8, 30};
+  keyed.crop = {10, 20, 8, 30 + skirt};
   keyed.straight.width = 8;
-  keyed.straight.height = 30;
-  keyed.straight.rgba.assign(4 * 8 * 30, 255);
-  keyed.labels.assign(8 * 30, 1);
+  keyed.straight.height = 30 + skirt;
+  keyed.straight.rgba.assign(4u * 8 * 30, 255);
+  keyed.straight.rgba.resize(4u * 8 * static_cast<std::size_t>(30 + skirt), 80);
+  keyed.labels.assign(8u * static_cast<std::size_t>(30 + skirt), 1);
   Blob blob;
   blob.box = keyed.crop;
-  blob.area = 8 * 30;
+  blob.area = 8 * (30 + skirt * 80 / 255.0);
   blob.label = 1;
   keyed.blobs = {blob};
-  EXPECT_NEAR(ground_lines(keyed)[0], 50 - 0.002 * 30, 1e-9);
+  return keyed;
+}
+
+TEST(Extract, GroundLineIsWhereTheLowestPartEnds) {
+  EXPECT_NEAR(ground_lines(box_with_skirt(0))[0], 50 - 0.0002 * 30, 1e-9);
+}
+
+TEST(Extract, LittleCoverageBelowTheFeetIsNotTheGround) {
+  EXPECT_NEAR(ground_lines(box_with_skirt(6))[0], 50, 0.3);
 }
 
 }  // namespace
