@@ -4,9 +4,9 @@
 // One sprite per instance: a box without its clear corners, eight vertices of a strip.
 // place: xy frame pixels of the picture's top left corner, z width of the footprint in pixels, w share
 // of the other picture     axes: frame pixels per texel, along x and y     rect, other: x, y, width,
-// height in the page, texels     box: what is covered (or, by the sign of order.z, hidden), texels of the picture     cuts: off its corners,
-// clockwise from the top left     shift: xy of the other picture's corner, texels, z share of the
-// backdrop's light, w its reach, texels     tint, fog: linear
+// height in the page, texels     box: what is covered (or, by the sign of order.z, hidden), texels of
+// the picture     cuts: off its corners, clockwise from the top left     shift: xy of the other
+// picture's corner, texels, z share of the backdrop's light, w its reach, texels     tint, fog: linear
 layout(location = 0) in vec4 place;
 layout(location = 1) in vec4 axes;
 layout(location = 2) in vec4 rect;
@@ -18,7 +18,8 @@ layout(location = 7) in vec4 other;
 layout(location = 8) in vec4 shift;
 uniform vec2 frame_size;
 uniform vec2 page_size;
-uniform vec3 order;  // depth of the first instance, from one to the next; 1, or -1: a box that is all opaque
+// Depth of the first instance, from one to the next; 1, or -1: a box that is all opaque.
+uniform vec3 order;
 out vec2 texel;  // within the picture; where one sample is taken, of the page, 0..1
 #if TAPS > 1 || defined(FADE) || defined(WRAP)
 flat out vec4 picture;
