@@ -502,7 +502,7 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
 // Where a standing plate is of the subject's own colour, the mouse before the dark wall, its shadow
 // and reflection differ from it as much as it does.
 void mark_unlike(const float (&subject)[3], ScreenModel& screen) {
-  const float least = 0.35f * screen.subject_contrast;
+  const float least = detail::kUnlike * screen.subject_contrast;
   screen.unlike.resize(screen.cells[0].size());
   for (std::size_t i = 0; i < screen.unlike.size(); ++i) {
     const float away =
@@ -570,9 +570,16 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
     screen.key_normaliser =
         (static_cast<float>(bin) + 0.5f) / (screen.key >= 0 ? kKeySteps : kDistanceSteps);
   if (screen.key >= 0) screen.key_normaliser = std::max(1.0f, screen.key_normaliser);
+  // Half of all cells reach the usual contrast. Before a standing camera it is half of all contrast
+  // that does: shadows and reflections are faint, however wide.
+  std::vector<std::uint64_t> weights(contrasts.begin(), contrasts.end());
+  std::uint64_t whole = 0;
+  if (screen.kind == KeyKind::Plate)
+    for (std::size_t k = 0; k < contrasts.size(); ++k) weights[k] *= k;
+  for (const std::uint64_t weight : weights) whole += weight;
   seen = 0;
   bin = 0;
-  while (bin < contrasts.size() - 1 && 2 * (seen += contrasts[bin]) < contrast_count) ++bin;
+  while (bin < contrasts.size() - 1 && 2 * (seen += weights[bin]) < whole) ++bin;
   screen.subject_contrast = static_cast<float>(bin);
   if (screen.kind == KeyKind::Plate && contrast_count > 0) {
     float subject[3];

@@ -288,19 +288,32 @@ void look_closely(const ScreenModel& screen, const Frame& frame, Silhouette& s) 
 }
 
 // Without a key faint differences are shadows, reflections and the codec's smear: they count only
-// within three cells of what stands out as the subject does, before a plate that is unlike it.
+// within three cells of what stands out as the subject does. Before a plate that is like it they
+// count only beside that, and no shadow or reflection stands out by more than such a plate does.
 void drop_faint(const ScreenModel& screen, Silhouette& s) {
-  Mask strong(s.mask.width, s.mask.height);
   const float least = std::max(2 * screen.threshold, 0.2f * screen.subject_contrast);
-  lanes().above(s.contrast.data(), least, strong.in.size(), strong.in.data());
-  if (!screen.unlike.empty())
-    for (int y = 0; y < s.window.height; ++y)
+  const auto above = [&s](float contrast) {
+    Mask mask(s.mask.width, s.mask.height);
+    lanes().above(s.contrast.data(), contrast, mask.in.size(), mask.in.data());
+    return mask;
+  };
+  const auto join = [](const Mask& more, Mask& mask) {
+    lanes().spread_into(more.in.data(), more.in.size(), true, mask.in.data());
+  };
+  const auto leave_unlike = [&](Mask& mask) {
+    for (int y = 0; y < s.window.height && !screen.unlike.empty(); ++y)
       lanes().spread_into(
           screen.unlike.data() +
               static_cast<std::ptrdiff_t>(s.window.top + y) * ((screen.width + 1) / 2) +
               s.window.left,
-          static_cast<std::size_t>(s.window.width), false, strong.row(y));
-  const Mask near = dilate(strong, 3);
+          static_cast<std::size_t>(s.window.width), false, mask.row(y));
+  };
+  Mask strong = above(least);
+  leave_unlike(strong);
+  join(above(std::max(least, kUnlike * screen.subject_contrast)), strong);
+  Mask near = dilate(strong, 3);
+  leave_unlike(near);
+  join(dilate(strong, 1), near);
   lanes().spread_into(near.in.data(), near.in.size(), false, s.mask.in.data());
 }
 

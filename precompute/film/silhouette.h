@@ -87,6 +87,10 @@ Surface fit_drift(const ScreenModel& screen, const Frame& frame, float reach);
 /// Completes a model whose plate is known: what the keyer reads for every frame.
 void prepare_model(ScreenModel& screen);
 
+/// Of the subject's usual contrast: a plate that differs less from the subject is like it, and what
+/// differs less from such a plate may be the subject's shadow or reflection there.
+inline constexpr float kUnlike = 0.5f;
+
 /// The channels of colour difference `key`.
 KeyShape shape_of(int key) noexcept;
 

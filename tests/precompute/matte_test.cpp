@@ -190,6 +190,39 @@ TEST(Matte, BorderContactIsSeen) {
   EXPECT_TRUE(keyed.blobs[0].touches_border);
 }
 
+// A dark subject on a pale floor, at x = 205, and from x = 220 on a wall not much paler than it, in
+// which a wider and fainter picture of it shows.
+Frame before_a_glossy_wall(int index, double y) {
+  SyntheticFilm film;
+  film.noise = 1;
+  for (int c = 0; c < 3; ++c) film.screen[c] = 140, film.subject[c] = 28;
+  Image made = film.image(index, {{205, y, 14, 9}});
+  for (int v = 0; v < film.height; ++v)
+    for (int x = 220; x < film.width; ++x) {
+      const double r = std::hypot((x + 0.5 - 235) / 24, (v + 0.5 - y) / 18);
+      const double light = 1 - 0.63 * std::clamp(2 - 2 * r, 0.0, 1.0);
+      const double code = SyntheticFilm::code(light * SyntheticFilm::linear(60));
+      const auto at = static_cast<std::size_t>(4 * (v * film.width + x));
+      std::fill_n(made.rgba.begin() + static_cast<std::ptrdiff_t>(at), 3,
+                  static_cast<std::uint8_t>(code + 0.5 + (x * 7 + v * 3 + index) % 3 - 1));
+    }
+  return to_frame(made, index);
+}
+
+TEST(Matte, AReflectionInAWallLikeTheSubjectIsNoneOfIt) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i) frames.push_back(before_a_glossy_wall(i, 30.0 + 12 * i));
+  const auto screen = measure_screen(frames, {.kind = KeyKind::Plate});
+  ASSERT_TRUE(screen) << screen.error().message;
+  Keyer keyer(*screen, {});
+  const KeyedFrame keyed = keyer.key(before_a_glossy_wall(40, 100), nullptr);
+  EXPECT_EQ(alpha_of(keyed, 205, 100), 255);
+  int most = 0;
+  for (int y = 0; y < 240; ++y)
+    for (int x = 232; x < 320; ++x) most = std::max(most, alpha_of(keyed, x, y));
+  EXPECT_EQ(most, 0);
+}
+
 TEST(Matte, SameBytesFromAnyNumberOfThreads) {
   const auto& frames = scene().frames;
   const auto key_all = [&](std::size_t threads) {
