@@ -112,6 +112,14 @@ export class Browser {
     this.send("Browser.close", {}, null).catch(() => {});
     await Promise.race([gone, sleep(5000)]);
     if (this.process.exitCode === null) this.process.kill("SIGKILL");
-    rmSync(this.folder, {recursive: true, force: true, maxRetries: 5, retryDelay: 100});
+    // The browser's children write there until they have ended as well.
+    for (let tries = 0; tries < 50; ++tries) {
+      try {
+        rmSync(this.folder, {recursive: true, force: true});
+        break;
+      } catch {
+        await sleep(100);
+      }
+    }
   }
 }
