@@ -226,9 +226,7 @@ Result<double> write_contact_sheet(const StageRun& run, const ScreenModel& scree
     return wrote.error();
   std::vector<double> holes;
   for (const KeyedFrame& frame : keyed) holes.push_back(hole_share(frame, frame.blobs.front()));
-  const auto middle = holes.begin() + std::ssize(holes) / 2;
-  std::nth_element(holes.begin(), middle, holes.end());
-  return *middle;
+  return detail::median(std::move(holes));
 }
 
 /// The keyed frame at `position`, its parts boxed, as a PNG of the work folder.
