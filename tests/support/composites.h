@@ -53,8 +53,8 @@ inline const std::vector<Condition>& conditions() {
   return all;
 }
 
-/// The screens of the films that no choice has seen.
-inline const std::vector<Condition>& unseen_conditions() {
+/// Screens other than those; chosen with since.
+inline const std::vector<Condition>& more_conditions() {
   static const std::vector<Condition> all = {
       {"green cloth", {70, 140, 75}, 0.3, 2.5, 0.05, 20},
       {"deep green", {20, 110, 45}, 0.1, 2, 0.04, 18},
@@ -68,6 +68,25 @@ inline const std::vector<Condition>& unseen_conditions() {
       {"charcoal", {34, 36, 38}, 0.15, 2, 0.0, 18},
       {"middle grey", {98, 100, 104}, 0.15, 2, 0.0, 20},
       {"green, compressed", {60, 150, 80}, 0.15, 2, 0.06, 32},
+  };
+  return all;
+}
+
+/// The screens of the films that no choice has seen: six for each of two subjects, in turn.
+inline const std::vector<Condition>& unseen_conditions() {
+  static const std::vector<Condition> all = {
+      {"chroma green", {15, 165, 30}, 0.1, 1.5, 0.04, 20},
+      {"cobalt", {20, 50, 160}, 0.15, 2, 0.04, 18},
+      {"pale blue", {140, 175, 205}, 0.15, 2, 0.03, 18},
+      {"bottle green", {18, 62, 48}, 0.2, 2, 0.03, 20},
+      {"steel blue", {72, 100, 128}, 0.25, 2, 0.03, 20},
+      {"olive green", {96, 128, 62}, 0.2, 2.5, 0.04, 18},
+      {"fuchsia", {190, 40, 120}, 0.1, 2, 0.03, 18},
+      {"teal", {25, 120, 115}, 0.2, 2.5, 0.05, 24},
+      {"light grey", {178, 180, 182}, 0.1, 2, 0.0, 18},
+      {"paper white", {236, 234, 230}, 0.12, 1.5, 0.0, 20},
+      {"near black", {24, 23, 22}, 0.1, 2, 0.0, 20},
+      {"slate", {66, 70, 76}, 0.15, 2, 0.0, 18},
   };
   return all;
 }
@@ -356,6 +375,147 @@ inline CutOut longhair(double time, int width, int height) {
                 coat(u, v, color);
                 return 1.0;
               });
+  return layers.finish();
+}
+
+/// A seed head on a stalk in the wind: a brown heart, rays with parasols of hairs on their ends,
+/// some of them gone on a way of their own.
+inline CutOut seed_head(double time, int width, int height) {
+  Layers layers(width, height);
+  const double sway = 0.5 * std::sin(0.08 * time) + 0.08 * std::sin(0.5 * time);
+  const double foot = width * (0.45 + 0.1 * std::sin(0.03 * time));
+  const double r = 0.19 * height;
+  const double cx = foot + 0.55 * height * std::sin(0.6 * sway), cy = 0.46 * height;
+  const double stalk[3] = {0.16, 0.22, 0.07}, heart[3] = {0.20, 0.11, 0.05};
+  const double ray[3] = {0.46, 0.38, 0.27}, down[3] = {0.74, 0.73, 0.69};
+  layers.stroke(
+      height,
+      [&](double t) {
+        return std::pair{foot + (cx - foot) * t * t, height * 0.98 + (cy - 0.98 * height) * t};
+      },
+      [](double t) { return 2.4 - 0.9 * t; }, stalk);
+  std::uint32_t state = 20261;
+  const auto random = [&state] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 8) / (1 << 24);
+  };
+  const auto seed = [&](double x, double y, double turn, double length) {
+    const double ux = std::cos(turn), uy = std::sin(turn);
+    const double ex = x + length * ux, ey = y + length * uy;
+    layers.stroke(
+        static_cast<int>(2 * length),
+        [&](double t) {
+          return std::pair{x + (ex - x) * t, y + (ey - y) * t};
+        },
+        [](double t) { return t < 0.15 ? 0.8 : 0.28; }, ray);
+    for (int k = -5; k <= 5; ++k) {
+      const double spread = turn + 0.24 * k;
+      layers.stroke(
+          28,
+          [&](double t) {
+            return std::pair{ex + 0.3 * r * t * std::cos(spread),
+                             ey + 0.3 * r * t * std::sin(spread)};
+          },
+          [](double t) { return 0.32 - 0.2 * t; }, down);
+    }
+  };
+  for (int k = 0; k < 46; ++k) {
+    const double turn = 6.2831853 * (k + 0.6 * random()) / 46 + 0.4 * sway;
+    const double length = r * (0.45 + 0.5 * random());
+    const double start = 18 + 60 * random();  // when it leaves
+    const double away = k % 6 == 0 && time > start ? time - start : 0;
+    seed(cx + 3.1 * away, cy - 1.4 * away + 6 * std::sin(0.2 * away), turn, length);
+  }
+  layers.area(cx - r, cy - r, cx + r, cy + r, [&](double x, double y, double(&color)[3]) {
+    const double far = std::hypot(x - cx, y - cy) / (0.13 * r);
+    if (far > 1) return 0.0;
+    const double light =
+        1 - 0.35 * (y - cy) / (0.13 * r) + 0.2 * std::sin(1.9 * x) * std::sin(2.3 * y);
+    for (int p = 0; p < 3; ++p) color[p] = heart[p] * light;
+    return 1.0;
+  });
+  return layers.finish();
+}
+
+/// A person turning: bare arms, a patterned top, a skirt of net over dark legs, loose brown hair.
+inline CutOut dancer(double time, int width, int height) {
+  Layers layers(width, height);
+  const double cx = width * (0.5 + 0.2 * std::sin(0.05 * time + 0.6));
+  const double cy = 0.52 * height;
+  const double r = 0.06 * height;
+  const double turn = std::sin(0.22 * time);
+  const double skin[3] = {0.50, 0.29, 0.20}, hose[3] = {0.03, 0.03, 0.04};
+  const double thread[3] = {0.33, 0.05, 0.12}, hair[3] = {0.09, 0.045, 0.02};
+  for (const double side : {-1.0, 1.0}) {
+    layers.stroke(
+        200,
+        [&](double t) {
+          return std::pair{cx + r * side * (0.4 + 0.5 * t + 0.5 * turn * side * t * t),
+                           cy + r * (1.4 + 4.6 * t)};
+        },
+        [&](double t) { return r * (0.42 - 0.2 * t); }, hose);
+    layers.stroke(
+        160,
+        [&](double t) {
+          return std::pair{cx + r * side * (0.8 + 2.3 * t),
+                           cy + r * (-1.6 - 1.5 * t * std::sin(0.19 * time + side) + 0.8 * t * t)};
+        },
+        [&](double t) { return r * (0.3 - 0.14 * t); }, skin);
+  }
+  // The net: a pale haze of threads too fine to see, and two families of those that are seen.
+  const double wide = 2.6 + 0.5 * std::abs(turn);
+  const auto hem = [&](double u) { return 3.6 + 0.25 * std::sin(3 * u + 0.4 * time); };
+  layers.area(cx - 3.2 * r, cy + 0.8 * r, cx + 3.2 * r, cy + 4.2 * r,
+              [&](double x, double y, double(&color)[3]) {
+                const double u = (x - cx) / r, v = (y - cy) / r;
+                if (v < 1 || v > hem(u)) return 0.0;
+                if (std::abs(u) > 0.9 + (wide - 0.9) * std::sqrt((v - 1) / 2.6)) return 0.0;
+                const double fold = 0.5 + 0.5 * std::sin(5 * u / (0.4 + 0.3 * v) + 2 * turn);
+                for (int p = 0; p < 3; ++p) color[p] = thread[p] * (1 + 0.5 * fold);
+                return 0.14 + 0.2 * fold * fold;
+              });
+  for (int k = -9; k <= 9; ++k)
+    for (const double lean : {-0.12, 0.12})
+      layers.stroke(
+          static_cast<int>(6 * r),
+          [&](double t) {
+            const double v = 1 + t * (hem(0.1 * k) - 1);
+            const double u = (0.1 * k + lean * t) * (0.9 + (wide - 0.9) * std::sqrt((v - 1) / 2.6));
+            return std::pair{cx + r * u, cy + r * v};
+          },
+          [](double) { return 0.3; }, thread);
+  layers.area(cx - 2 * r, cy - 5 * r, cx + 2 * r, cy + 2 * r,
+              [&](double x, double y, double(&color)[3]) {
+                const double u = (x - cx) / r, v = (y - cy) / r;
+                const bool top = v > -2 && v < 1.5 && std::abs(u) < 0.95 - 0.12 * (v + 1) * (1 - v);
+                const bool face = std::hypot((u - 0.15 * turn) / 0.72, (v + 3.1) / 0.92) < 1;
+                const bool neck = std::abs(u) < 0.28 && v > -2.5 && v < -1.9;
+                if (!top && !face && !neck) return 0.0;
+                const double check = std::sin(9 * u) * std::sin(7 * v) > 0.1 ? 1.0 : 0.45;
+                const double cloth[3] = {0.55 * check, 0.50 * check, 0.12 * check};
+                const double light = 1 - 0.22 * u;
+                for (int p = 0; p < 3; ++p)
+                  color[p] = light * (top && v > -1.9 ? cloth[p] : skin[p]);
+                return 1.0;
+              });
+  std::uint32_t state = 86028;
+  const auto random = [&state] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 8) / (1 << 24);
+  };
+  for (int k = 0; k < 260; ++k) {
+    const double at = -3.3 + 3.5 * random();
+    const double drop = 0.6 + 1.9 * random();
+    const double fly = 0.9 * (random() - 0.5) - 0.9 * std::cos(0.22 * time) * random();
+    const double thick = 0.2 + 0.45 * random();
+    const double x0 = 0.15 * turn + 0.74 * std::cos(at), y0 = -3.2 + 0.92 * std::sin(at);
+    layers.stroke(
+        static_cast<int>(3 * r * drop),
+        [&](double t) {
+          return std::pair{cx + r * (x0 + fly * t * t + 0.3 * x0 * t), cy + r * (y0 + drop * t)};
+        },
+        [&](double t) { return thick * (1 - 0.65 * t); }, hair);
+  }
   return layers.finish();
 }
 
