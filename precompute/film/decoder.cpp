@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 
 #include "film/container.h"
 #include "film/sender.h"
@@ -23,18 +24,20 @@ namespace {
 
 constexpr rlim_t kChildBytes = rlim_t{4} << 30;  // beyond what the parent had mapped
 
-// Leaves the child with nothing of the parent's but the pipe, and a bound on its memory.
-void isolate(int& out, pid_t parent) {
+// Leaves the child with nothing of the parent's but the channel, and a bound on its memory.
+void isolate(Channel& channel, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(0);
   std::signal(SIGINT, SIG_IGN);  // the parent decides when work ends
   for (int s : {SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     std::signal(s, SIG_DFL);
+  const Channel high{fcntl(channel.socket, F_DUPFD, 16), fcntl(channel.memory, F_DUPFD, 16)};
+  channel = {3, 4};
+  dup2(high.socket, channel.socket);
+  dup2(high.memory, channel.memory);
   const int null = open("/dev/null", O_RDWR);
   for (int fd : {0, 1, 2}) dup2(null, fd);
-  if (out != 3) dup2(out, 3);
-  out = 3;
-  close_range(4, ~0u, 0);
+  close_range(5, ~0u, 0);
   rlimit limit{};
   rlim_t mapped = 0;
   if (std::FILE* statm = std::fopen("/proc/self/statm", "r")) {
@@ -178,7 +181,8 @@ void send_end(int out) {
   send(out, &end, sizeof end);
 }
 
-void decode_film(int out, const FilmSource& source, const Selection& selection) {
+void decode_film(const Channel& channel, const FilmSource& source, const Selection& selection) {
+  const int out = channel.socket;
   av_log_set_level(AV_LOG_QUIET);
   const Outline outline = outline_of(source.path);
   Choice choice(outline, source, selection);
@@ -191,7 +195,7 @@ void decode_film(int out, const FilmSource& source, const Selection& selection) 
   if (!opened || !film.next_frame(*frame, admits)) return send(out, &hello, sizeof hello);
   hello = describe(film, outline, *frame);
   send(out, &hello, sizeof hello);
-  Sender sender(out, hello.rotation);
+  Sender sender(channel, hello);
   int count = 0;
   do {
     int index = 0;
@@ -232,7 +236,9 @@ void put_text(char (&to)[N], const std::string& text) {
   std::strncpy(to, text.c_str(), N - 1);
 }
 
-void decode_pictures(int out, const FilmSource& source, const Selection& selection) {
+void decode_pictures(const Channel& channel, const FilmSource& source,
+                     const Selection& selection) {
+  const int out = channel.socket;
   Hello hello;
   const auto pictures = find_pictures(source.path);
   if (!pictures) {
@@ -246,7 +252,7 @@ void decode_pictures(int out, const FilmSource& source, const Selection& selecti
                     pictures->size(), selection.wanted);
   if (selection.mode == Selection::Bursts) lengthen(chosen, selection.length, source.end);
   const auto times = times_of(*pictures);
-  Sender sender(out, 0);
+  std::optional<Sender> sender;
   for (int i = source.first; i < std::min(count, source.end); ++i) {
     if (!chosen[static_cast<std::size_t>(i)]) continue;
     const auto picture = read_png((*pictures)[static_cast<std::size_t>(i)]);
@@ -265,6 +271,7 @@ void decode_pictures(int out, const FilmSource& source, const Selection& selecti
       hello.coding = {Matrix::Bt601, true, Siting::Center};
       put_text(hello.pixel_format, "png");
       send(out, &hello, sizeof hello);
+      sender.emplace(channel, hello);
     }
     if (!picture) {
       FrameHead head;
@@ -274,7 +281,7 @@ void decode_pictures(int out, const FilmSource& source, const Selection& selecti
       send(out, hello.fault, sizeof hello.fault);
       return;
     }
-    sender.send_picture(*picture, i, times[static_cast<std::size_t>(i)]);
+    sender->send_picture(*picture, i, times[static_cast<std::size_t>(i)]);
   }
   if (hello.kind == Kind::NoFilm) return send(out, &hello, sizeof hello);
   send_end(out);
@@ -282,14 +289,15 @@ void decode_pictures(int out, const FilmSource& source, const Selection& selecti
 
 }  // namespace
 
-void decode_in_child(int out, pid_t parent, const FilmSource& source, const Selection& selection) {
-  isolate(out, parent);
+void decode_in_child(Channel channel, pid_t parent, const FilmSource& source,
+                     const Selection& selection) {
+  isolate(channel, parent);
   int status = 0;
   try {
     if (is_picture_source(source.path))
-      decode_pictures(out, source, selection);
+      decode_pictures(channel, source, selection);
     else
-      decode_film(out, source, selection);
+      decode_film(channel, source, selection);
   } catch (const std::bad_alloc&) {
     status = kExitNoMemory;
   } catch (...) {

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// film/decoder.h - the child process that decodes, and what it sends through the pipe: one Hello,
-// then a FrameHead and its planes (Y, Cb, Cr, RGBA if it has them, no padding) for each frame, then
-// a FrameHead of kind End.
+// film/decoder.h - the child process that decodes, and what it says on the socket: one Hello, then a
+// FrameHead for each frame, whose planes (Y, Cb, Cr, RGBA if it has them, no padding) lie in the
+// ring (film/ring.h), then a FrameHead of kind End. It hears a byte for each frame that it may send.
 #pragma once
 
 #include <sys/types.h>
@@ -55,8 +55,13 @@ struct Selection {
 
 inline constexpr int kExitNoMemory = 71;
 
+/// The child's ends.
+struct Channel {
+  int socket, memory;
+};
+
 /// Runs in the child, between fork and _exit; `parent` is who forked it.
-[[noreturn]] void decode_in_child(int out, pid_t parent, const FilmSource& source,
+[[noreturn]] void decode_in_child(Channel channel, pid_t parent, const FilmSource& source,
                                   const Selection& selection);
 
 }  // namespace vsprite::detail

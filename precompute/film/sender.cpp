@@ -18,19 +18,21 @@ extern "C" {
 namespace vsprite::detail {
 namespace {
 
-// A plane as a player shows it, turned clockwise by 90, 180 or 270 degrees; `size` bytes a pixel.
-std::vector<std::uint8_t> turned(const std::uint8_t* data, std::ptrdiff_t stride, int width,
-                                 int height, int degrees, int size) {
-  std::vector<std::uint8_t> out;
-  out.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-              static_cast<std::size_t>(size));
+// Writes a plane as a player shows it, turned clockwise by 0, 90, 180 or 270 degrees; `size` bytes a
+// pixel. Returns the end of what it wrote.
+std::uint8_t* put_turned(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height,
+                         int degrees, int size, std::uint8_t* out) {
+  if (degrees == 0) {
+    const std::ptrdiff_t row = std::ptrdiff_t{width} * size;
+    for (int y = 0; y < height; ++y, out += row) std::copy_n(data + y * stride, row, out);
+    return out;
+  }
   const bool upright = degrees == 180;
   for (int v = 0; v < (upright ? height : width); ++v)
     for (int u = 0; u < (upright ? width : height); ++u) {
       const int x = degrees == 90 ? v : degrees == 180 ? width - 1 - u : width - 1 - v;
       const int y = degrees == 90 ? height - 1 - u : degrees == 180 ? height - 1 - v : u;
-      const std::uint8_t* pixel = data + y * stride + x * size;
-      for (int k = 0; k < size; ++k) out.push_back(pixel[k]);
+      out = std::copy_n(data + y * stride + x * size, size, out);
     }
   return out;
 }
@@ -61,11 +63,24 @@ void send(int fd, const void* data, std::size_t size) {
   }
 }
 
+std::uint8_t* Sender::claim(const FrameHead& head) {
+  if (head.width != hello_.width || head.height != hello_.height) return nullptr;
+  char grant = 0;
+  ssize_t n = 0;
+  do n = read(channel_.socket, &grant, 1);
+  while (n < 0 && errno == EINTR);
+  if (n <= 0) _exit(0);
+  if (!ring_.mapped() && !ring_.map(channel_.memory, head.width, head.height))
+    throw std::bad_alloc();
+  return ring_.next();
+}
+
 void Sender::send_frame(const AVFrame& frame, int index) {
   FrameHead head;
   head.kind = Kind::Frame;
-  head.width = rotation_ % 180 != 0 ? frame.height : frame.width;
-  head.height = rotation_ % 180 != 0 ? frame.width : frame.height;
+  const bool lying = hello_.rotation % 180 != 0;
+  head.width = lying ? frame.height : frame.width;
+  head.height = lying ? frame.width : frame.height;
   head.index = index;
   if (frame.best_effort_timestamp != AV_NOPTS_VALUE) head.time = frame.best_effort_timestamp;
   head.coding = coding_of(frame);
@@ -88,23 +103,13 @@ void Sender::send_frame(const AVFrame& frame, int index) {
 void Sender::send_planes(const FrameHead& upright, const std::uint8_t* const (&planes)[3],
                          const std::ptrdiff_t (&strides)[3], int width, int height) {
   FrameHead head = upright;
-  if (rotation_ != 0 && head.coding.siting != Siting::Center)
+  if (hello_.rotation != 0 && head.coding.siting != Siting::Center)
     head.coding.siting = Siting::Unknown;  // it was to the left, and is now above
-  send(out_, &head, sizeof head);
-  send_turned(planes[0], strides[0], width, height);
-  for (int p = 1; p < 3; ++p) send_turned(planes[p], strides[p], (width + 1) / 2, (height + 1) / 2);
-}
-
-void Sender::send_turned(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height) {
-  const auto row = static_cast<std::size_t>(width);
-  const std::size_t size = row * static_cast<std::size_t>(height);
-  if (rotation_ != 0)
-    return send(out_, turned(data, stride, width, height, rotation_, 1).data(), size);
-  if (stride == width) return send(out_, data, size);
-  std::vector<std::uint8_t> packed(size);
-  for (int y = 0; y < height; ++y)
-    std::copy_n(data + y * stride, row, packed.data() + row * static_cast<std::size_t>(y));
-  send(out_, packed.data(), size);
+  if (std::uint8_t* out = claim(head))
+    for (int p = 0; p < 3; ++p)
+      out = put_turned(planes[p], strides[p], p ? (width + 1) / 2 : width,
+                       p ? (height + 1) / 2 : height, hello_.rotation, 1, out);
+  send(channel_.socket, &head, sizeof head);
 }
 
 // The same matrix and range on both sides: what RGB and what Y'CbCr is, stays so.
@@ -137,14 +142,10 @@ const AVFrame& Sender::convert(const AVFrame& frame, AVPixelFormat to, bool full
 void Sender::send_coverage(const AVFrame& frame, FrameHead head) {
   const AVFrame& rgba = convert(frame, AV_PIX_FMT_RGBA, head.coding.full_range);
   Image picture{head.width, head.height, {}};
-  if (rotation_ != 0) {
-    picture.rgba = turned(rgba.data[0], rgba.linesize[0], frame.width, frame.height, rotation_, 4);
-  } else {
-    const auto row = 4 * static_cast<std::size_t>(frame.width);
-    for (int y = 0; y < frame.height; ++y)
-      picture.rgba.insert(picture.rgba.end(), rgba.data[0] + y * rgba.linesize[0],
-                          rgba.data[0] + y * rgba.linesize[0] + row);
-  }
+  picture.rgba.resize(4 * static_cast<std::size_t>(head.width) *
+                      static_cast<std::size_t>(head.height));
+  put_turned(rgba.data[0], rgba.linesize[0], frame.width, frame.height, hello_.rotation, 4,
+             picture.rgba.data());
   send_picture(picture, head.index, head.time);
 }
 
@@ -158,10 +159,10 @@ void Sender::send_picture(const Image& picture, int index, std::int64_t time) {
   head.time = time;
   head.coding = planes.coding;
   head.has_rgba = 1;
-  send(out_, &head, sizeof head);
-  for (const auto* plane : {&planes.y, &planes.cb, &planes.cr})
-    send(out_, plane->data(), plane->size());
-  send(out_, picture.rgba.data(), picture.rgba.size());
+  if (std::uint8_t* out = claim(head))
+    for (const auto* plane : {&planes.y, &planes.cb, &planes.cr, &picture.rgba})
+      out = std::copy(plane->begin(), plane->end(), out);
+  send(channel_.socket, &head, sizeof head);
 }
 
 void Sender::send_mapped(const AVFrame& frame, FrameHead head) {

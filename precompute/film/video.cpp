@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// The parent's end of the pipe: what the decoder (film/decoder.h) sends, and what became of it.
+// The parent's end: what the decoder (film/decoder.h) sends, and what became of it.
 #include "film/video.h"
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,6 +22,7 @@
 #include "film/color.h"
 #include "film/decoder.h"
 #include "film/pacer.h"
+#include "film/ring.h"
 
 namespace vsprite {
 
@@ -41,7 +44,6 @@ namespace {
 
 constexpr int kMaxSide = 16384;
 constexpr int kHangMs = 30'000;
-constexpr int kPipeBytes = 1 << 20;
 
 // The nearest rate in common use, else thousandths of a frame a second.
 void set_rate(double fps, FilmInfo& info) {
@@ -75,12 +77,23 @@ std::string signal_name(int signal) {
 
 enum class Pulled { All, Closed, Hung };
 
+struct OwnedFd {
+  int fd;
+  explicit OwnedFd(int of) : fd(of) {}
+  OwnedFd(const OwnedFd&) = delete;
+  OwnedFd& operator=(const OwnedFd&) = delete;
+  ~OwnedFd() {
+    if (fd >= 0) close(fd);
+  }
+};
+
 }  // namespace
 
 struct FilmReader::Impl {
   std::string path;
   FilmInfo info;
-  int fd = -1;
+  int fd = -1;               // the socket to the child
+  detail::Ring ring{};
   pid_t child = -1;
   int next = 0;              // index of the frame to come
   bool ended = false;        // all frames were handed out
@@ -115,7 +128,7 @@ struct FilmReader::Impl {
     return status;
   }
 
-  // Waits for the child's own end (the pipe is closed, so it is near), for the reason of its death.
+  // Waits for the child's own end (the socket is closed, so it is near), for the reason of its death.
   int reap() {
     int status = 0;
     for (int tries = 0; tries < 500; ++tries) {
@@ -144,6 +157,12 @@ struct FilmReader::Impl {
       size -= static_cast<std::size_t>(n);
     }
     return Pulled::All;
+  }
+
+  // Lets the child fill so many more slots; where it is dead, the next pull will tell.
+  void grant(int slots) {
+    const std::string bytes(static_cast<std::size_t>(slots), 'g');
+    [[maybe_unused]] const ssize_t sent = send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }
 
   Error failure(Pulled how) {
@@ -207,12 +226,14 @@ Result<void> FilmReader::Impl::start(const FilmSource& source, const Selection& 
   consecutive = selection.mode == Selection::Every;
   whole = consecutive && source.first == 0 && source.end == INT_MAX;
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0)
-    return Error{ErrorCode::CannotRead, path + ": no pipe to a decoder: " + std::strerror(errno)};
-  fcntl(ends[1], F_SETPIPE_SZ, kPipeBytes);  // a refusal costs speed only
+  const OwnedFd memory(memfd_create("frames", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+  if (memory.fd < 0 || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    return Error{ErrorCode::CannotRead,
+                 path + ": no way to a decoder process: " + std::strerror(errno)};
   const pid_t parent = getpid();
   child = fork();
-  if (child == 0) detail::decode_in_child(ends[1], parent, source, selection);
+  if (child == 0)
+    detail::decode_in_child({ends[1], memory.fd}, parent, source, selection);
   close(ends[1]);
   fd = ends[0];
   if (child < 0)
@@ -233,6 +254,12 @@ Result<void> FilmReader::Impl::start(const FilmSource& source, const Selection& 
                                                " x " + std::to_string(hello.height) +
                                                " px; due: at most " + std::to_string(kMaxSide) +
                                                " px a side"};
+  if (!detail::Ring::size(memory.fd, hello.width, hello.height) ||
+      !ring.map(memory.fd, hello.width, hello.height))
+    return Error{ErrorCode::OutOfMemory, path + ": frames of " + std::to_string(hello.width) +
+                                             " x " + std::to_string(hello.height) +
+                                             " px: no memory for them: " + std::strerror(errno)};
+  grant(ring.slots());
   info.width = hello.width;
   info.height = hello.height;
   info.claimed_frames = hello.claimed_frames;
@@ -273,7 +300,7 @@ Result<void> FilmReader::Impl::start_matte(const FilmSource& source, const Selec
   return {};
 }
 
-// The planes that follow a head.
+// The planes that lie in the next slot.
 Result<bool> FilmReader::Impl::pull_frame(const FrameHead& head, Frame& frame) {
   if (head.width != info.width || head.height != info.height) {
     stop();
@@ -285,16 +312,19 @@ Result<bool> FilmReader::Impl::pull_frame(const FrameHead& head, Frame& frame) {
   }
   try {
     frame.resize(head.width, head.height);
+    frame.rgba.resize(head.has_rgba != 0 ? 4 * frame.y.size() : 0);
   } catch (const std::bad_alloc&) {
     stop();
     return Error{ErrorCode::OutOfMemory, path + ": a frame of " + std::to_string(head.width) +
                                              " x " + std::to_string(head.height) +
                                              " px does not fit in memory"};
   }
-  frame.rgba.resize(head.has_rgba != 0 ? 4 * frame.y.size() : 0);
-  for (auto* plane : {&frame.y, &frame.cb, &frame.cr, &frame.rgba})
-    if (const Pulled how = pull(plane->data(), plane->size()); how != Pulled::All)
-      return failure(how);
+  const std::uint8_t* from = ring.next();
+  for (auto* plane : {&frame.y, &frame.cb, &frame.cr, &frame.rgba}) {
+    std::copy_n(from, plane->size(), plane->data());
+    from += plane->size();
+  }
+  grant(1);
   frame.index = head.index;
   frame.coding = head.coding;
   frame.time = head.time;

@@ -8,7 +8,7 @@
 //
 // libavformat and libavcodec are called directly: OpenCV's VideoCapture hands out BGR only, and
 // neither time stamps, nor rotation, colour tags, field order or the size of single frames can be
-// reached through it. They run in a forked child with limits; frames arrive over a pipe. A decoder
+// reached through it. They run in a forked child with limits; frames arrive in shared memory. A decoder
 // that crashes or hangs is this film's error, not ours. The container's frame count is a claim that
 // is compared with what arrived, never trusted. Open films before other threads are started.
 #pragma once
@@ -24,7 +24,7 @@
 
 namespace vsprite {
 
-/// How Y, Cb, Cr are made of R, G, B (ITU-T H.273). Plain tags: they cross the pipe.
+/// How Y, Cb, Cr are made of R, G, B (ITU-T H.273). Plain tags: they cross a socket.
 enum class Matrix : std::uint8_t { Bt601, Bt709, Bt2020 };
 enum class Siting : std::uint8_t { Unknown, Left, Center, TopLeft };  ///< of a cell's colour
 enum class Transfer : std::uint8_t { Sdr, Hlg, Pq };
