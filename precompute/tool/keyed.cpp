@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kChunkMagic = 0x33444559454B5356;  // "VSKEYED3"
-constexpr int kLevel = 1;  // the files live for a minute: speed, not size
+constexpr int kLevel = -5;  // the files live for a minute: a third of the time of 1, 15 % larger
 
 void put_compressed(ByteWriter& writer, const std::vector<std::uint8_t>& bytes) {
   std::string packed(ZSTD_compressBound(bytes.size()), '\0');
