@@ -230,10 +230,8 @@ void sum3(const float* __restrict in, std::size_t n, float* __restrict out) {
   for (std::size_t x = 0; x < n; ++x) out[x] = a[x] + in[x] + b[x];
 }
 
-void add_far(const float* __restrict middle, std::ptrdiff_t stride, const float* __restrict far,
-             float whole, int n, float* __restrict out) {
-  const float* __restrict a = middle - stride;
-  const float* __restrict b = middle + stride;
+void add_far(const float* __restrict a, const float* __restrict middle, const float* __restrict b,
+             const float* __restrict far, float whole, int n, float* __restrict out) {
   constexpr float kNinth = 1.0f / 9;
   for (int x = 0; x < n; ++x) out[x] = kNinth * (a[x] + middle[x] + b[x]) + far[x] + whole;
 }
@@ -383,17 +381,16 @@ void moments(const float* top_weight, const float* low_weight, ConstPlanes top, 
   }
 }
 
-void mix(const float* __restrict first, float a, const float* __restrict second, float b,
-         std::size_t n, float* __restrict out) {
-  for (std::size_t i = 0; i < n; ++i) out[i] = a * first[i] + b * second[i];
-}
-
-void double_row(const float* __restrict in, int n, float* __restrict out) {
-  out[0] = in[0];
-  out[2 * n - 1] = in[n - 1];
+void double_row(const float* __restrict first, float a, const float* __restrict second, float b,
+                int n, float* __restrict out) {
+  const auto mixed = [=](int i) { return a * first[i] + b * second[i]; };
+  out[0] = mixed(0);
+  out[2 * n - 1] = mixed(n - 1);
   for (int i = 0; i + 1 < n; ++i) {
-    out[2 * i + 1] = 0.75f * in[i] + 0.25f * in[i + 1];
-    out[2 * i + 2] = 0.25f * in[i] + 0.75f * in[i + 1];
+    const float left = mixed(i);
+    const float right = mixed(i + 1);
+    out[2 * i + 1] = 0.75f * left + 0.25f * right;
+    out[2 * i + 2] = 0.25f * left + 0.75f * right;
   }
 }
 
@@ -733,16 +730,16 @@ std::uint32_t difference(const std::uint8_t* __restrict a, const std::uint8_t* _
 }  // namespace
 
 const Lanes* get_lanes() {
-  static constexpr Lanes kLanes = {count_different, sum_cells,       contrast,     look_up,
-                                   shift,           forgive_shadows, above,        spread_into,
-                                   pack_bits,       unpack_bits,     sum5,         sum3,
-                                   add_far,         blur3,           gamut_bound,  key_share,
-                                   distance,        score,           moments,      mix,
-                                   double_row,      project,         modes,        set_sure,
-                                   weigh_rim,       detail,          halve,        gain,
-                                   mark_inner,      multiply,        raise_alpha,  settle,
-                                   own_color,       encode_weighted, paint_filmed, paint_own,
-                                   cover,           name_pixels,     difference};
+  static constexpr Lanes kLanes = {count_different, sum_cells,       contrast,    look_up,
+                                   shift,           forgive_shadows, above,       spread_into,
+                                   pack_bits,       unpack_bits,     sum5,        sum3,
+                                   add_far,         blur3,           gamut_bound, key_share,
+                                   distance,        score,           moments,     double_row,
+                                   project,         modes,           set_sure,    weigh_rim,
+                                   detail,          halve,           gain,        mark_inner,
+                                   multiply,        raise_alpha,     settle,      own_color,
+                                   encode_weighted, paint_filmed,    paint_own,   cover,
+                                   name_pixels,     difference};
   return &kLanes;
 }
 

@@ -113,9 +113,9 @@ struct Lanes {
   void (*sum5)(const float* in, std::ptrdiff_t stride, std::size_t n, float scale, float* out);
   /// Sums of three neighbours, n of them; one before and behind is read.
   void (*sum3)(const float* in, std::size_t n, float* out);
-  /// out = mean of nine, given three rows' sums of three `stride` apart, + far + whole.
-  void (*add_far)(const float* middle, std::ptrdiff_t stride, const float* far, float whole, int n,
-                  float* out);
+  /// out = mean of nine, given three rows' sums of three, + far + whole.
+  void (*add_far)(const float* above, const float* middle, const float* below, const float* far,
+                  float whole, int n, float* out);
   /// Means over 3 x 3, outside is 0. `scratch` and `out` are as large as `in`.
   void (*blur3)(const float* in, int width, int height, float* scratch, float* out);
   /// Alpha below this puts F outside the gamut; two sigma of noise are taken off.
@@ -131,10 +131,8 @@ struct Lanes {
   /// may be absent: null).
   void (*moments)(const float* top_weight, const float* low_weight, ConstPlanes top,
                   ConstPlanes low, int n, float* const (&out)[kMoments]);
-  /// out = a first + b second.
-  void (*mix)(const float* first, float a, const float* second, float b, std::size_t n, float* out);
-  /// Bilinear doubling of a row of n: 2 n out.
-  void (*double_row)(const float* in, int n, float* out);
+  /// Bilinear doubling of a row of n, a first + b second: 2 n out.
+  void (*double_row)(const float* first, float a, const float* second, float b, int n, float* out);
   /// The cells of a row from `begin` to `end`; blocks of lanes reach over them inside 0..n.
   void (*project)(const ProjectionRow& row, float spill, int begin, int end, int n);
   /// Modes of a row (above): seeds are known, the rest of the region is not; of seeds the mean is

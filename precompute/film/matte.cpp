@@ -175,15 +175,13 @@ void Keyer::Impl::mark_inner() {
   lanes().inner(some.in.data(), full.in.data(), n, inner.data(), gain.data());
 }
 
-// The two cells that a row of pixels lies between, mixed and then doubled along a span of it.
-void up_row(const std::vector<float>& plane, int width, int height, Span span, int y, float* row,
-            float* out) {
+// The two cells that a row of pixels lies between, mixed and doubled along a span of it.
+void up_row(const std::vector<float>& plane, int width, int height, Span span, int y, float* out) {
   const int cell = y / 2;
   const int second = std::clamp(y % 2 ? cell + 1 : cell - 1, 0, height - 1);
-  lanes().mix(plane.data() + static_cast<std::ptrdiff_t>(cell) * width + span.begin, 0.75f,
-              plane.data() + static_cast<std::ptrdiff_t>(second) * width + span.begin, 0.25f,
-              static_cast<std::size_t>(span.size()), row);
-  lanes().double_row(row, span.size(), out + 2 * span.begin);
+  lanes().double_row(plane.data() + static_cast<std::ptrdiff_t>(cell) * width + span.begin, 0.75f,
+                     plane.data() + static_cast<std::ptrdiff_t>(second) * width + span.begin, 0.25f,
+                     span.size(), out + 2 * span.begin);
 }
 
 // Shadow covers less than a third of the light; above 0.6 alpha stays, between it is stretched.
@@ -201,16 +199,16 @@ void Keyer::Impl::raise_alpha() {
     if (const Span span = patch.spans[static_cast<std::size_t>(y / 2)]; span.size())
       std::fill_n(alpha.data() + static_cast<std::size_t>(y) * stride + 2 * span.begin,
                   std::min(2 * span.end, width) - 2 * span.begin, std::uint8_t{255});
-  std::vector<float> rows(4 * stride);
+  std::vector<float> rows(3 * stride);
   // Before a plain plate shadows and the codec's smear look like thin subject: they are taken off.
   const float shade = screen->kind == KeyKind::Plate ? 0.15f : 0.0f;
   for (const auto& [cell_row, span] : patch.rim) {
     const std::uint8_t* kinds = inner.data() + static_cast<std::ptrdiff_t>(cell_row) * patch.width;
     for (int y = 2 * cell_row; y < std::min(2 * cell_row + 2, height); ++y) {
-      float* up = rows.data() + stride;
-      up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
-      up_row(gain, patch.width, patch.height, span, y, rows.data(), up + stride);
-      up_row(guide, patch.width, patch.height, span, y, rows.data(), up + 2 * stride);
+      float* up = rows.data();
+      up_row(patch.alpha, patch.width, patch.height, span, y, up);
+      up_row(gain, patch.width, patch.height, span, y, up + stride);
+      up_row(guide, patch.width, patch.height, span, y, up + 2 * stride);
       up += 2 * span.begin;
       const std::size_t at = static_cast<std::size_t>(y) * stride;
       const std::size_t first = at + 2 * static_cast<std::size_t>(span.begin);
@@ -466,7 +464,7 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
   result.labels.reserve(n);
 
   const RgbOfYcc matrix = rgb_of_ycc(frame.coding);
-  std::vector<float> rows(6 * stride);
+  std::vector<float> rows(4 * stride);
   std::vector<std::uint8_t> painted(4 * stride);
   std::vector<std::uint8_t> names(stride);
   const std::vector<std::uint8_t>& coverage = measured.empty() ? alpha : measured;
@@ -500,11 +498,11 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
         lanes().paint_filmed(matrix, frame.y.data() + film + from, frame.cb.data() + color + begin,
                              frame.cr.data() + color + begin, pixels, out);
       } else {
-        float* up = rows.data() + stride;
+        float* up = rows.data();
         const Span span{std::max(begin - 1, 0), std::min(end + 1, patch.width)};
-        up_row(patch.alpha, patch.width, patch.height, span, y, rows.data(), up);
+        up_row(patch.alpha, patch.width, patch.height, span, y, up);
         for (int p = 0; p < 3; ++p)
-          up_row(own[p], patch.width, patch.height, span, y, rows.data(),
+          up_row(own[p], patch.width, patch.height, span, y,
                  up + static_cast<std::size_t>(p + 1) * stride);
         up += from;
         lanes().paint_own({coverage.data() + at + from,

@@ -208,15 +208,34 @@ void blur_wide(const MomentRows& rows, std::vector<float>& plane, std::vector<fl
   }
 }
 
-// Weighted sums of 1, the three channels and their six products under a near window (sigma about 2
-// cells, kept in squares of 2 x 2) and a wide one (sigma about 10, in squares of 4 x 4), with a
-// trace of the whole patch.
-void gather_moments(Patch& patch, const std::vector<float>& weight,
-                    const std::vector<float> (&color)[3]) {
-  const MomentRows near = near_rows(patch);
-  const MomentRows wide = wide_rows(near);
-  patch.near.assign(near.size() + near.all(), 0.0f);  // a row of zeros below
-  for (int y = 0; y < near.height; ++y) {
+// The squares of row y that are read when rows of cells are doubled from it and its neighbours.
+Span squares_read(const Patch& patch, const MomentRows& near, int y) {
+  Span all{near.width, 0};
+  for (int row = std::max(2 * y - 1, 0); row < std::min(2 * y + 3, patch.height); ++row)
+    if (const Span span = patch.spans[static_cast<std::size_t>(row)]; span.size())
+      all = {std::min(all.begin, std::max(span.begin / 2 - 1, 0)),
+             std::max(all.end, std::min((span.end + 1) / 2 + 1, near.width))};
+  return all;
+}
+// Of all three rows that a mean at one of those is made of.
+Span squares_blurred(const Patch& patch, const MomentRows& near, int y) {
+  Span all{near.width, 0};
+  for (int row = y - 1; row <= y + 1; ++row)
+    if (const Span span = squares_read(patch, near, row); span.size())
+      all = {std::min(all.begin, span.begin), std::max(all.end, span.end)};
+  return all;
+}
+
+// The moments of the cells, in squares of 2 x 2; about them zeros as far as they are looked at.
+void fill_near(Patch& patch, const MomentRows& near, const std::vector<float>& weight,
+               const std::vector<float> (&color)[3]) {
+  patch.near.resize(near.size() + near.all());  // a row of zeros below
+  for (int y = 0; y <= near.height; ++y) {
+    float* row = patch.near.data() + near.at(y);
+    if (const Span clear = squares_blurred(patch, near, y); clear.size())
+      for (std::size_t k = 0; k < kMoments; ++k)
+        std::fill_n(row + k * near.stride + clear.begin - 1, clear.size() + 2, 0.0f);
+    if (y == near.height) break;
     const bool both = 2 * y + 1 < patch.height;
     const Span upper = patch.spans[static_cast<std::size_t>(2 * y)];
     const Span lower = both ? patch.spans[static_cast<std::size_t>(2 * y + 1)] : Span{};
@@ -230,45 +249,75 @@ void gather_moments(Patch& patch, const std::vector<float>& weight,
         static_cast<std::size_t>(2 * y) * static_cast<std::size_t>(patch.width) + skipped;
     const auto low = both ? top + static_cast<std::size_t>(patch.width) : top;
     float* out[kMoments];
-    for (std::size_t k = 0; k < kMoments; ++k)
-      out[k] = patch.near.data() + near.at(y) + k * near.stride + skipped / 2;
+    for (std::size_t k = 0; k < kMoments; ++k) out[k] = row + k * near.stride + skipped / 2;
     const ConstPointers first(color, top);
     const ConstPointers second(color, low);
     lanes().moments(weight.data() + top, both ? weight.data() + low : nullptr, first.at, second.at,
                     span.size(), out);
   }
+}
+
+// Weighted sums of 1, the three channels and their six products under a near window (sigma about 2
+// cells, kept in squares of 2 x 2) and a wide one (sigma about 10, in squares of 4 x 4), with a
+// trace of the whole patch. Filled are the squares that are read.
+void gather_moments(Patch& patch, const std::vector<float>& weight,
+                    const std::vector<float> (&color)[3]) {
+  const Lanes& run = lanes();
+  const MomentRows near = near_rows(patch);
+  const MomentRows wide = wide_rows(near);
+  fill_near(patch, near, weight, color);
   patch.wide.assign(wide.size(), 0.0f);
-  for (int y = 0; y < wide.height; ++y) {
-    const float* first = patch.near.data() + near.at(2 * y);
-    lanes().halve(first, first + near.all(), static_cast<int>(wide.all()),
-                  patch.wide.data() + wide.at(y));
-  }
   // Of the whole patch; ten sums at a time, each in its own order.
   double all[kMoments] = {};
-  for (int y = 0; y < wide.height; ++y)
-    for (std::size_t x = 0; x < static_cast<std::size_t>(wide.width); ++x)
+  for (int y = 0; y < wide.height; ++y) {
+    Span span = squares_read(patch, near, 2 * y);
+    if (const Span low = squares_read(patch, near, 2 * y + 1); low.size())
+      span = {std::min(span.begin, low.begin), std::max(span.end, low.end)};
+    if (span.size() == 0) continue;
+    const auto first = static_cast<std::size_t>(span.begin / 2);
+    const auto count = static_cast<std::size_t>((span.end + 1) / 2) - first;
+    const float* in = patch.near.data() + near.at(2 * y) + 2 * first;
+    float* out = patch.wide.data() + wide.at(y) + first;
+    for (std::size_t k = 0; k < kMoments; ++k)
+      run.halve(in + k * near.stride, in + near.all() + k * near.stride, static_cast<int>(count),
+                out + k * wide.stride);
+    for (std::size_t x = 0; x < count; ++x)
       for (std::size_t k = 0; k < kMoments; ++k)
-        all[k] += static_cast<double>(patch.wide[wide.at(y) + k * wide.stride + x]);
+        all[k] += static_cast<double>(out[k * wide.stride + x]);
+  }
   blur_wide(wide, patch.wide, patch.scratch);
   // near + far wide + whole; the rows of the near sums are blurred when all three are there.
   std::vector<float>& sums = patch.scratch;
-  sums.assign(near.size() + 2 * near.all(), 0.0f);  // a row of zeros on both sides
-  for (int y = 0; y < near.height; ++y)
-    lanes().sum3(patch.near.data() + near.at(y), near.all(), sums.data() + near.at(y + 1));
-  for (auto& row : patch.rows) row.resize(2 * near.all());
-  float* const mixed = patch.rows[0].data();
-  float* const doubled = patch.rows[1].data();
+  sums.assign(3 * near.all(), 0.0f);
+  const auto row_of_sums = [&](int y) {
+    return sums.data() + static_cast<std::size_t>((y + 3) % 3) * near.all();
+  };
+  const auto add_up = [&](int y) {
+    const Span span = squares_blurred(patch, near, y);
+    const float* in = patch.near.data() + near.at(y) + span.begin;
+    for (std::size_t k = 0; k < kMoments && span.size(); ++k)
+      run.sum3(in + k * near.stride, static_cast<std::size_t>(span.size()),
+               row_of_sums(y) + k * near.stride + span.begin);
+  };
+  patch.far.resize(2 * wide.stride);
+  float* const far = patch.far.data();
+  add_up(0);
   for (int y = 0; y < near.height; ++y) {
+    add_up(y + 1);
+    const Span span = squares_read(patch, near, y);
+    if (span.size() == 0) continue;
     const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), wide.height - 1);
-    lanes().mix(patch.wide.data() + wide.at(y / 2), 0.75f * kFarWeight,
-                patch.wide.data() + wide.at(second), 0.25f * kFarWeight, wide.all(), mixed);
-    const float* middle = sums.data() + near.at(y + 1);
+    const int from = std::max(span.begin / 2 - 1, 0);
+    const int count = std::min((span.end + 1) / 2 + 1, wide.width) - from;
     for (std::size_t k = 0; k < kMoments; ++k) {
-      lanes().double_row(mixed + k * wide.stride, wide.width, doubled);
-      const std::size_t from = k * near.stride;
-      lanes().add_far(middle + from, static_cast<std::ptrdiff_t>(near.all()), doubled,
-                      kGlobalWeight * static_cast<float>(all[k]), near.width,
-                      patch.near.data() + near.at(y) + from);
+      const std::size_t at = k * wide.stride + static_cast<std::size_t>(from);
+      run.double_row(patch.wide.data() + wide.at(y / 2) + at, 0.75f * kFarWeight,
+                     patch.wide.data() + wide.at(second) + at, 0.25f * kFarWeight, count,
+                     far + 2 * from);
+      const std::size_t to = k * near.stride + static_cast<std::size_t>(span.begin);
+      run.add_far(row_of_sums(y - 1) + to, row_of_sums(y) + to, row_of_sums(y + 1) + to,
+                  far + span.begin, kGlobalWeight * static_cast<float>(all[k]), span.size(),
+                  patch.near.data() + near.at(y) + to);
     }
   }
 }
@@ -293,16 +342,16 @@ void each_run(const std::uint8_t* in, Span span, With with) {
 
 // Alpha and mean of what is not sure; `means`: the cells whose mean the despill wants too.
 void solve_alpha(Patch& patch, float spill, const Mask* means) {
+  const Lanes& run = lanes();
   const MomentRows near = near_rows(patch);
   const auto width = static_cast<std::size_t>(patch.width);
   patch.mode.assign(width + 2 * kRoom, 0);
   // Room for a block of lanes behind the last cell.
   const std::size_t stride = 2 * near.stride + kRoom;
-  patch.rows[0].resize(near.all());
-  patch.rows[1].resize(kMoments * stride);
+  patch.rows.resize(kMoments * stride);
   ProjectionRow row{};
   row.mode = patch.mode.data();
-  for (std::size_t k = 0; k < kMoments; ++k) row.moment[k] = patch.rows[1].data() + k * stride;
+  for (std::size_t k = 0; k < kMoments; ++k) row.moment[k] = patch.rows.data() + k * stride;
   std::fill(patch.alpha.begin(), patch.alpha.end(), 0.0f);
   if (!means) std::fill(patch.residual.begin(), patch.residual.end(), 0.0f);
   for (int y = 0; y < patch.height; ++y) {
@@ -312,14 +361,13 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
     float* alpha = patch.alpha.data() + at;
     std::fill(patch.mode.begin(), patch.mode.end(), std::uint8_t{0});
     const auto skipped = static_cast<std::size_t>(span.begin);
-    if (!lanes().modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped,
-                       means ? means->row(y) + skipped : nullptr,
-                       static_cast<std::size_t>(span.size()), patch.mode.data() + skipped,
-                       alpha + skipped))
+    if (!run.modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped,
+                   means ? means->row(y) + skipped : nullptr, static_cast<std::size_t>(span.size()),
+                   patch.mode.data() + skipped, alpha + skipped))
       continue;
     const int second = std::min(std::max(y % 2 ? y / 2 + 1 : y / 2 - 1, 0), near.height - 1);
-    lanes().mix(patch.near.data() + near.at(y / 2), 0.75f, patch.near.data() + near.at(second),
-                0.25f, near.all(), patch.rows[0].data());
+    const float* first_row = patch.near.data() + near.at(y / 2);
+    const float* second_row = patch.near.data() + near.at(second);
     for (int p = 0; p < 3; ++p) {
       row.frame[p] = patch.frame[p].data() + at;
       row.plate[p] = patch.plate[p].data() + at;
@@ -334,9 +382,10 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
       const int from = std::max(begin / 2 - 1, 0);
       const int count = std::min((end + 1) / 2 + 1, near.width) - from;
       for (std::size_t k = 0; k < kMoments; ++k)
-        lanes().double_row(patch.rows[0].data() + k * near.stride + from, count,
-                           patch.rows[1].data() + k * stride + 2 * from);
-      lanes().project(row, spill, begin, end, patch.width);
+        run.double_row(first_row + k * near.stride + from, 0.75f,
+                       second_row + k * near.stride + from, 0.25f, count,
+                       patch.rows.data() + k * stride + 2 * from);
+      run.project(row, spill, begin, end, patch.width);
     });
   }
 }
@@ -354,6 +403,7 @@ bool add_unexplained(Patch& patch) {
     for (std::size_t i = at; i < at + count; ++i)
       gone[i] = std::clamp(std::max(patch.key[i], patch.bound[i]), 0.0f, 1.0f);
   });
+  patch.scratch.resize(n);
   lanes().blur3(gone.data(), patch.width, patch.height, patch.scratch.data(), about.data());
   Mask covered(patch.width, patch.height);
   lanes().above(about.data(), kCovered, n, covered.in.data());

@@ -45,7 +45,7 @@ struct Patch {
   // row of moments holds all ten, one behind the other with zeros between, so that sums run over
   // them at once.
   std::vector<float> key, bound, residual, weight, color[3], scratch, soft;
-  std::vector<float> near, wide, rows[2];
+  std::vector<float> near, wide, far, rows;
   std::vector<std::uint8_t> mode;
 
   std::size_t cells() const {
