@@ -95,10 +95,10 @@ Light light_of(const ScreenModel& screen, const Frame& frame, const Window& wind
 // Sums over a neighbourhood of what is free of the subject.
 void smooth(const std::vector<std::uint8_t>& free, const Window& window,
             std::vector<float>& plane) {
-  std::vector<float> scratch(plane.size()), out(plane.size());
+  std::vector<float> out(plane.size());
   for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = free[i] ? plane[i] : 0.0f;
   for (int pass = 0; pass < kBlurs; ++pass) {
-    lanes().blur3(plane.data(), window.width, window.height, scratch.data(), out.data());
+    blur3(plane, window.width, window.height, out);
     plane.swap(out);
   }
 }

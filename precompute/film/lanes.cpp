@@ -236,35 +236,61 @@ void add_far(const float* __restrict a, const float* __restrict middle, const fl
   for (int x = 0; x < n; ++x) out[x] = kNinth * (a[x] + middle[x] + b[x]) + far[x] + whole;
 }
 
-void blur3(const float* __restrict in, int width, int height, float* __restrict rows,
-           float* __restrict out) {
-  const auto w = static_cast<std::size_t>(width);
-  for (int y = 0; y < height; ++y) {
-    const float* p = in + static_cast<std::size_t>(y) * w;
-    float* r = rows + static_cast<std::size_t>(y) * w;
-    if (width == 1) {
-      r[0] = p[0];
-      continue;
-    }
-    r[0] = p[0] + p[1];
-    for (int x = 1; x + 1 < width; ++x) r[x] = p[x - 1] + p[x] + p[x + 1];
-    r[width - 1] = p[width - 2] + p[width - 1];
+// Mean of value(row, cell) over 3 x 3.
+template <class Value>
+inline float mean9(Value value, int x) {
+  constexpr float kNinth = 1.0f / 9;
+  const auto three = [&](int row) { return value(row, x - 1) + value(row, x) + value(row, x + 1); };
+  return kNinth * (three(0) + three(1) + three(2));
+}
+
+// Cells of three rows; with `kEdge` zeros to the left and right.
+template <bool kEdge>
+struct Cells {
+  const float* __restrict above, * __restrict middle, * __restrict below;
+  int width;
+  Cells(const RowsAround& rows, int w)
+      : above(rows.above), middle(rows.middle), below(rows.below), width(w) {}
+  float operator()(int row, int x) const {
+    if (kEdge && (x < 0 || x >= width)) return 0;
+    return row == 0 ? above[x] : row == 1 ? middle[x] : below[x];
   }
-  for (int y = 0; y < height; ++y) {
-    const float* r = rows + static_cast<std::size_t>(y) * w;
-    const float* a = y > 0 ? r - w : nullptr;
-    const float* b = y + 1 < height ? r + w : nullptr;
-    float* o = out + static_cast<std::size_t>(y) * w;
-    constexpr float kNinth = 1.0f / 9;
-    if (a && b)
-      for (int x = 0; x < width; ++x) o[x] = kNinth * (a[x] + r[x] + b[x]);
-    else if (a || b) {
-      const float* other = a ? a : b;
-      for (int x = 0; x < width; ++x) o[x] = kNinth * (other[x] + r[x]);
-    } else {
-      for (int x = 0; x < width; ++x) o[x] = kNinth * r[x];
-    }
-  }
+};
+
+// Calls `inside(x)` for the cells that have neighbours on both sides, `edge(x)` for the others.
+template <class Inside, class Edge>
+inline void each_cell(int width, int begin, int end, Inside inside, Edge edge) {
+  if (begin == 0 && end > 0) edge(0);
+  if (end == width && width > 1 && begin < end) edge(width - 1);
+  const int last = std::min(end, width - 1);
+  for (int x = std::max(begin, 1); x < last; ++x) inside(x);
+}
+
+void blur3(const RowsAround& in, int width, int begin, int end, float* __restrict out) {
+  const Cells<false> cells(in, width);
+  const Cells<true> padded(in, width);
+  each_cell(
+      width, begin, end, [&](int x) { out[x] = mean9(cells, x); },
+      [&](int x) { out[x] = mean9(padded, x); });
+}
+
+template <class Value>
+inline float gain_at(const Value& a, const Value& g, int x) {
+  constexpr float kRidge = 1e-4f;
+  const float mean_a = mean9(a, x);
+  const float mean_g = mean9(g, x);
+  const float both = mean9([&](int row, int i) { return a(row, i) * g(row, i); }, x);
+  const float square = mean9([&](int row, int i) { return g(row, i) * g(row, i); }, x);
+  return (both - mean_a * mean_g) / (larger_of(square - mean_g * mean_g, 0) + kRidge);
+}
+
+void gain(const RowsAround& a, const RowsAround& g, int width, int begin, int end,
+          float* __restrict out) {
+  const Cells<false> alpha(a, width), guide(g, width);
+  const Cells<true> padded_alpha(a, width), padded_guide(g, width);
+  each_cell(
+      width, begin, end, [&](int x) { out[x] = gain_at(alpha, guide, x); },
+      [&](int x) { out[x] = gain_at(padded_alpha, padded_guide, x); });
 }
 
 void gamut_bound(ConstPlanes frame, ConstPlanes plate, ConstPlanes noise, std::size_t n,
@@ -546,13 +572,6 @@ void halve(const float* __restrict top, const float* __restrict low, int n, floa
     out[i] = 0.25f * (top[2 * i] + top[2 * i + 1] + low[2 * i] + low[2 * i + 1]);
 }
 
-void gain(const float* __restrict a, const float* __restrict g, const float* __restrict ag,
-          const float* __restrict gg, std::size_t n, float* __restrict out) {
-  constexpr float kRidge = 1e-4f;
-  for (std::size_t i = 0; i < n; ++i)
-    out[i] = (ag[i] - a[i] * g[i]) / (larger_of(gg[i] - g[i] * g[i], 0) + kRidge);
-}
-
 void mark_inner(const std::uint8_t* __restrict some, const std::uint8_t* __restrict full,
                 std::size_t n, std::uint8_t* __restrict inner, float* __restrict gain_of) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -560,11 +579,6 @@ void mark_inner(const std::uint8_t* __restrict some, const std::uint8_t* __restr
     inner[i] = static_cast<std::uint8_t>(some[i] ? in : 2);
   }
   for (std::size_t i = 0; i < n; ++i) gain_of[i] = inner[i] ? 0.0f : gain_of[i];
-}
-
-void multiply(const float* __restrict a, const float* __restrict b, std::size_t n,
-              float* __restrict out) {
-  for (std::size_t i = 0; i < n; ++i) out[i] = a[i] * b[i];
 }
 
 void raise_alpha(const AlphaRow& row, int n, std::uint8_t* __restrict out) {
@@ -730,16 +744,14 @@ std::uint32_t difference(const std::uint8_t* __restrict a, const std::uint8_t* _
 }  // namespace
 
 const Lanes* get_lanes() {
-  static constexpr Lanes kLanes = {count_different, sum_cells,       contrast,    look_up,
-                                   shift,           forgive_shadows, above,       spread_into,
-                                   pack_bits,       unpack_bits,     sum5,        sum3,
-                                   add_far,         blur3,           gamut_bound, key_share,
-                                   distance,        score,           moments,     double_row,
-                                   project,         modes,           set_sure,    weigh_rim,
-                                   detail,          halve,           gain,        mark_inner,
-                                   multiply,        raise_alpha,     settle,      own_color,
-                                   encode_weighted, paint_filmed,    paint_own,   cover,
-                                   name_pixels,     difference};
+  static constexpr Lanes kLanes = {
+      count_different, sum_cells,       contrast,     look_up,     shift,       forgive_shadows,
+      above,           spread_into,     pack_bits,    unpack_bits, sum5,        sum3,
+      add_far,         blur3,           gamut_bound,  key_share,   distance,    score,
+      moments,         double_row,      project,      modes,       set_sure,    weigh_rim,
+      detail,          halve,           gain,         mark_inner,  raise_alpha, settle,
+      own_color,       encode_weighted, paint_filmed, paint_own,   cover,       name_pixels,
+      difference};
   return &kLanes;
 }
 

@@ -43,6 +43,11 @@ struct KeyShape {
 /// 1, r, g, b, rr, rg, rb, gg, gb, bb of a colour.
 inline constexpr int kMoments = 10;
 
+/// A row of cells and those about it; zeros where there is none.
+struct RowsAround {
+  const float *above, *middle, *below;
+};
+
 /// One row of cells for the projection. `mode` 0: not wanted, 1: mean only, 2: alpha too.
 struct ProjectionRow {
   const std::uint8_t* mode;
@@ -116,8 +121,8 @@ struct Lanes {
   /// out = mean of nine, given three rows' sums of three, + far + whole.
   void (*add_far)(const float* above, const float* middle, const float* below, const float* far,
                   float whole, int n, float* out);
-  /// Means over 3 x 3, outside is 0. `scratch` and `out` are as large as `in`.
-  void (*blur3)(const float* in, int width, int height, float* scratch, float* out);
+  /// Means over 3 x 3 of the cells begin..end of a row of `width`; to its left and right is 0.
+  void (*blur3)(const RowsAround& in, int width, int begin, int end, float* out);
   /// Alpha below this puts F outside the gamut; two sigma of noise are taken off.
   void (*gamut_bound)(ConstPlanes frame, ConstPlanes plate, ConstPlanes noise, std::size_t n,
                       float* bound);
@@ -150,13 +155,11 @@ struct Lanes {
                  const float* drift, int n, float* out, float* out_plate);
   /// Mean of two rows of 2 n pixels by cells.
   void (*halve)(const float* top, const float* low, int n, float* out);
-  /// cov(a, g) / (var(g) + ridge) from means over 3 x 3.
-  void (*gain)(const float* a, const float* g, const float* ag, const float* gg, std::size_t n,
-               float* out);
+  /// cov(a, g) / (var(g) + ridge) over 3 x 3, as in blur3.
+  void (*gain)(const RowsAround& a, const RowsAround& g, int width, int begin, int end, float* out);
   /// inner = 2 where not `some`, else `full`; the gain of inner cells is 0.
   void (*inner)(const std::uint8_t* some, const std::uint8_t* full, std::size_t n,
                 std::uint8_t* inner, float* gain);
-  void (*multiply)(const float* a, const float* b, std::size_t n, float* out);
   void (*raise_alpha)(const AlphaRow& row, int n, std::uint8_t* out);
   /// Two pixels a cell: 255 where it is inner (1), 0 where it is outer (2).
   void (*settle)(const std::uint8_t* inner, int n, std::uint8_t* alpha);

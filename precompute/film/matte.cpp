@@ -46,9 +46,9 @@ struct Keyer::Impl {
 
   // Maps of cells.
   std::vector<float> gain, guide, own[3];
-  std::vector<std::uint8_t> inner;      // 1: all opaque around, 2: all clear, else 0
-  Mask shaded;                          // where a standing plate may lie in the subject's shadow
-  std::vector<float> product, scratch;  // working room
+  std::vector<std::uint8_t> inner;  // 1: all opaque around, 2: all clear, else 0
+  Mask shaded;                      // where a standing plate may lie in the subject's shadow
+  std::vector<float> product;       // working room
   // Maps of pixels over the patch, `stride` = 2 x patch.width apart.
   int left = 0, top = 0, width = 0, height = 0;  // film pixels
   std::size_t stride = 0;
@@ -136,10 +136,8 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
 // g_h: the mean of g over a cell; a: how much of g is alpha's own detail.
 void Keyer::Impl::measure_guide() {
   const std::size_t n = patch.cells();
-  guide.assign(n, 0);
+  guide.resize(n);
   gain.resize(n);
-  product.resize(n);
-  scratch.resize(n);
   for (const auto& [y, span] : patch.rim) {
     const float* first = detail.data() +
                          2 * static_cast<std::ptrdiff_t>(y) * static_cast<std::ptrdiff_t>(stride) +
@@ -147,18 +145,14 @@ void Keyer::Impl::measure_guide() {
     lanes().halve(first, first + stride, span.size(),
                   guide.data() + static_cast<std::ptrdiff_t>(y) * patch.width + span.begin);
   }
-  std::vector<float>(&mean)[3] = patch.color;  // its own use is over
-  const auto blur = [&](const std::vector<float>& in, std::vector<float>& out) {
-    out.resize(n);
-    lanes().blur3(in.data(), patch.width, patch.height, scratch.data(), out.data());
+  // What lies off the rim is met by inner cells alone, whose gain is 0 in the end.
+  const std::vector<float> zeros(static_cast<std::size_t>(patch.width));
+  const auto about = [&](const std::vector<float>& map, int y) {
+    return detail::rows_around(map, patch.width, patch.height, y, zeros);
   };
-  blur(patch.alpha, mean[0]);
-  blur(guide, mean[1]);
-  lanes().multiply(patch.alpha.data(), guide.data(), n, product.data());
-  blur(product, mean[2]);
-  lanes().multiply(guide.data(), guide.data(), n, product.data());
-  blur(product, patch.weight);
-  lanes().gain(mean[0].data(), mean[1].data(), mean[2].data(), patch.weight.data(), n, gain.data());
+  for (const auto& [y, span] : patch.rim)
+    lanes().gain(about(patch.alpha, y), about(guide, y), patch.width, span.begin, span.end,
+                 gain.data() + static_cast<std::ptrdiff_t>(y) * patch.width);
 }
 
 // Cells with nothing but 0 or nothing but 1 around need no detail.
@@ -166,13 +160,19 @@ void Keyer::Impl::mark_inner() {
   const std::size_t n = patch.cells();
   Mask some(patch.width, patch.height);
   Mask full(patch.width, patch.height);
-  lanes().above(patch.alpha.data(), 0, n, some.in.data());
-  lanes().above(patch.alpha.data(), 0.99999994f, n, full.in.data());  // the float below 1
+  detail::each_span(patch, [&](std::size_t at, std::size_t count) {
+    const float* cells = patch.alpha.data() + at;
+    lanes().above(cells, 0, count, some.in.data() + at);
+    lanes().above(cells, 0.99999994f, count, full.in.data() + at);  // the float below 1
+  });
   some = dilate(some, 1);
   full = erode(full, 1);
   inner.resize(n);
   if (screen->kind == KeyKind::Plate) shaded = dilate(patch.seeds, kShadow);
-  lanes().inner(some.in.data(), full.in.data(), n, inner.data(), gain.data());
+  detail::each_span(patch, [&](std::size_t at, std::size_t count) {
+    lanes().inner(some.in.data() + at, full.in.data() + at, count, inner.data() + at,
+                  gain.data() + at);
+  });
 }
 
 // The two cells that a row of pixels lies between, mixed and doubled along a span of it.
@@ -256,10 +256,10 @@ void Keyer::Impl::keep_tint(std::ptrdiff_t at, std::size_t count, detail::Planes
       mixed[p][i] = config.despill * mixed[p][i] + (1 - config.despill) * tinted[p][i];
 }
 
-// F per cell, encoded and times alpha: what is then mixed between cells. Off the rim it is 0.
+// F per cell of the rim, encoded and times alpha: what is then mixed between cells.
 void Keyer::Impl::measure_own_color() {
   const std::size_t n = patch.cells();
-  for (auto& plane : own) plane.assign(n, 0);
+  for (auto& plane : own) plane.resize(n);
   const auto pointers = [](auto& planes) {
     return std::array{planes[0].data(), planes[1].data(), planes[2].data()};
   };

@@ -138,6 +138,14 @@ Surface fit_drift(const ScreenModel& screen, const Frame& frame, float reach) {
   return drift;
 }
 
+void blur3(const std::vector<float>& map, int width, int height, std::vector<float>& out) {
+  const std::vector<float> zeros(static_cast<std::size_t>(width));
+  out.resize(map.size());
+  for (int y = 0; y < height; ++y)
+    lanes().blur3(rows_around(map, width, height, y, zeros), width, 0, width,
+                  out.data() + static_cast<std::ptrdiff_t>(y) * width);
+}
+
 KeyShape shape_of(int key) noexcept {
   const int main = std::max(key, 0) % 3;
   return {main, (main + 1) % 3, (main + 2) % 3, key < 3};
@@ -349,10 +357,7 @@ void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& 
   if (s.window.cells() == 0) return;
   look_closely(screen, frame, s);
   const std::size_t n = s.window.cells();
-  s.contrast.resize(n);
-  s.scratch.resize(n);
-  lanes().blur3(s.rough.data(), s.window.width, s.window.height, s.scratch.data(),
-                s.contrast.data());
+  blur3(s.rough, s.window.width, s.window.height, s.contrast);
   lanes().above(s.contrast.data(), screen.threshold, n, s.mask.in.data());
   if (screen.key < 0) drop_faint(screen, s);
   s.mask = dilate(erode(s.mask, 1), 1);

@@ -65,9 +65,18 @@ struct Silhouette {
   bool empty = true;
   Window box;  ///< of the mask, on the film's grid
 
-  // Working room.
-  std::vector<float> rough, scratch;
+  std::vector<float> rough;  // working room
 };
+
+/// Row y of a map of cells and those about it; `zeros`: a row of them.
+inline RowsAround rows_around(const std::vector<float>& map, int width, int height, int y,
+                              const std::vector<float>& zeros) {
+  const float* row = map.data() + static_cast<std::ptrdiff_t>(y) * width;
+  return {y > 0 ? row - width : zeros.data(), row, y + 1 < height ? row + width : zeros.data()};
+}
+
+/// Means over 3 x 3 of a map; outside is 0.
+void blur3(const std::vector<float>& map, int width, int height, std::vector<float>& out);
 
 /// Scaled coordinate of cell index i of n: -1..1.
 inline double scaled(int i, int n) { return n > 1 ? 2.0 * i / (n - 1) - 1 : 0.0; }

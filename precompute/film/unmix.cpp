@@ -69,13 +69,13 @@ std::vector<float> largest_around(const std::vector<float>& plane, int width, in
   return both;
 }
 
-// Calls `with(first cell, cells)` for the span of every row: all that is read of a patch.
-template <class With>
-void each_span(const Patch& patch, With with) {
-  for (std::size_t y = 0; y < patch.spans.size(); ++y)
-    if (const Span span = patch.spans[y]; span.size())
-      with(y * static_cast<std::size_t>(patch.width) + static_cast<std::size_t>(span.begin),
-           static_cast<std::size_t>(span.size()));
+// Means over 3 x 3 of the spans.
+void blur_spans(const Patch& patch, const std::vector<float>& in, std::vector<float>& out) {
+  const std::vector<float> zeros(static_cast<std::size_t>(patch.width));
+  for (int y = 0; y < patch.height; ++y)
+    if (const Span span = patch.spans[static_cast<std::size_t>(y)]; span.size())
+      lanes().blur3(rows_around(in, patch.width, patch.height, y, zeros), patch.width, span.begin,
+                    span.end, out.data() + static_cast<std::ptrdiff_t>(y) * patch.width);
 }
 
 // Evidence of coverage before any foreground is known: v, or the distance to the plate against its
@@ -83,7 +83,10 @@ void each_span(const Patch& patch, With with) {
 void gather_evidence(const ScreenModel& screen, Patch& patch) {
   const std::size_t n = patch.cells();
   patch.bound.resize(n + kRoom);
-  patch.key.assign(n + kRoom, 0);
+  if (screen.key < 0)
+    patch.key.assign(n + kRoom, 0);
+  else
+    patch.key.resize(n + kRoom);
   const KeyShape shape = shape_of(screen.key);
   each_span(patch, [&](std::size_t at, std::size_t count) {
     const ConstPointers frame(patch.frame, at);
@@ -352,13 +355,12 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
   ProjectionRow row{};
   row.mode = patch.mode.data();
   for (std::size_t k = 0; k < kMoments; ++k) row.moment[k] = patch.rows.data() + k * stride;
-  std::fill(patch.alpha.begin(), patch.alpha.end(), 0.0f);
-  if (!means) std::fill(patch.residual.begin(), patch.residual.end(), 0.0f);
   for (int y = 0; y < patch.height; ++y) {
     const Span span = patch.spans[static_cast<std::size_t>(y)];
     if (span.size() == 0) continue;
     const std::size_t at = static_cast<std::size_t>(y) * width;
     float* alpha = patch.alpha.data() + at;
+    if (!means) std::fill_n(patch.residual.data() + at + span.begin, span.size(), 0.0f);
     std::fill(patch.mode.begin(), patch.mode.end(), std::uint8_t{0});
     const auto skipped = static_cast<std::size_t>(span.begin);
     if (!run.modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped,
@@ -395,18 +397,22 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
 bool add_unexplained(Patch& patch) {
   const std::size_t n = patch.cells();
   Mask odd(patch.width, patch.height);
-  lanes().above(patch.residual.data(), kUnexplained, n, odd.in.data());
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    lanes().above(patch.residual.data() + at, kUnexplained, count, odd.in.data() + at);
+  });
   lanes().spread_into(patch.seeds.in.data(), n, true, odd.in.data());
   Mask core = erode(odd, 2);
-  std::vector<float> gone(n), about(n);
+  std::vector<float>& gone = patch.color[0];  // nothing else is in them yet
+  std::vector<float>& about = patch.color[1];
   each_span(patch, [&](std::size_t at, std::size_t count) {
     for (std::size_t i = at; i < at + count; ++i)
       gone[i] = std::clamp(std::max(patch.key[i], patch.bound[i]), 0.0f, 1.0f);
   });
-  patch.scratch.resize(n);
-  lanes().blur3(gone.data(), patch.width, patch.height, patch.scratch.data(), about.data());
+  blur_spans(patch, gone, about);
   Mask covered(patch.width, patch.height);
-  lanes().above(about.data(), kCovered, n, covered.in.data());
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    lanes().above(about.data() + at, kCovered, count, covered.in.data() + at);
+  });
   lanes().spread_into(covered.in.data(), n, false, core.in.data());
   lanes().spread_into(patch.seeds.in.data(), n, true, core.in.data());
   const bool added = core.in != patch.seeds.in;
@@ -420,8 +426,9 @@ void grow_seeds(Patch& patch) {
   constexpr int kGrowth = 8;
   constexpr float kNearlyOpaque = 0.88f;
   Mask opaque(patch.width, patch.height);
-  const std::size_t n = patch.cells();
-  lanes().above(patch.alpha.data(), kNearlyOpaque, n, opaque.in.data());
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    lanes().above(patch.alpha.data() + at, kNearlyOpaque, count, opaque.in.data() + at);
+  });
   patch.seeds = grow_into(opaque, patch.seeds, kGrowth);
   each_span(patch, [&](std::size_t at, std::size_t count) {
     lanes().set_sure(patch.seeds.in.data() + at, count, patch.alpha.data() + at);
@@ -466,7 +473,8 @@ void cut_patch(const ScreenModel& screen, const Silhouette& s, Patch& patch) {
                              static_cast<std::size_t>(patch.left - window.left);
     const std::size_t to = static_cast<std::size_t>(y) * width;
     std::copy_n(s.mask.in.data() + from, width, patch.core.row(y));
-    std::copy_n(s.contrast.data() + from, width, patch.contrast.data() + to);
+    if (screen.kind == KeyKind::Plate)
+      std::copy_n(s.contrast.data() + from, width, patch.contrast.data() + to);
   }
   patch.region = dilate(patch.core, 2);
   spans_of(patch.region, kReach, patch.spans);
@@ -487,12 +495,12 @@ void unmix(const ScreenModel& screen, Patch& patch) {
   gather_evidence(screen, patch);
   find_seeds(screen, patch);
   const std::size_t n = patch.cells();
-  patch.weight.resize(n + kRoom);
+  patch.weight.assign(n + kRoom, 0);
   patch.residual.resize(n + kRoom);
   for (auto& plane : patch.color) plane.resize(n + kRoom);
   for (int round = 0; round < 2; ++round) {
-    std::fill(patch.weight.begin(), patch.weight.end(), 0.0f);
     each_span(patch, [&](std::size_t at, std::size_t count) {
+      std::fill_n(patch.weight.data() + at, count, 0.0f);
       lanes().set_sure(patch.seeds.in.data() + at, count, patch.weight.data() + at);
     });
     gather_moments(patch, patch.weight, patch.frame);
@@ -501,9 +509,7 @@ void unmix(const ScreenModel& screen, Patch& patch) {
   }
   if (screen.key >= 0) grow_seeds(patch);
   patch.soft.resize(n);
-  patch.scratch.resize(n);
-  lanes().blur3(patch.alpha.data(), patch.width, patch.height, patch.scratch.data(),
-                patch.soft.data());
+  blur_spans(patch, patch.alpha, patch.soft);
   each_span(patch, [&](std::size_t at, std::size_t count) {
     const ConstPointers frame(patch.frame, at);
     const ConstPointers plate(patch.plate, at);

@@ -32,7 +32,7 @@ struct Patch {
   Mask core;                                     ///< the silhouette
   Mask region;                                   ///< where alpha may be above 0: two cells more
   std::vector<Span> spans;                       ///< of each row, what holds the region and kReach
-  std::vector<float> contrast;                   ///< code values, as in Silhouette
+  std::vector<float> contrast;                   ///< as in Silhouette; before a plate alone
   std::vector<float> frame[3], plate[3];         ///< C, B: linear R, G, B
   std::vector<float> noise[3];                   ///< sigma_n, linear
   Mask seeds;                                    ///< surely subject
@@ -52,6 +52,15 @@ struct Patch {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
 };
+
+/// Calls `with(first cell, cells)` for the span of every row: all that is read of a patch.
+template <class With>
+void each_span(const Patch& patch, With with) {
+  for (std::size_t y = 0; y < patch.spans.size(); ++y)
+    if (const Span span = patch.spans[y]; span.size())
+      with(y * static_cast<std::size_t>(patch.width) + static_cast<std::size_t>(span.begin),
+           static_cast<std::size_t>(span.size()));
+}
 
 /// Cuts the patch around the silhouette out of frame and plate, in linear light.
 void cut_patch(const ScreenModel& screen, const Silhouette& silhouette, Patch& patch);
