@@ -5,6 +5,7 @@
 #include "film/grid.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 #include "film/color.h"
@@ -129,6 +130,15 @@ Mask spread(const Mask& mask, int square, int crosses, bool larger) {
   return unpack(bits, !larger);
 }
 
+void complement(Bits& bits) {
+  const std::uint64_t last = ~std::uint64_t{0} >> (63 - (bits.width + 63) % 64);
+  for (int y = 0; y < bits.height; ++y) {
+    std::uint64_t* row = bits.row(bits.in, y);
+    for (std::size_t k = 0; k < bits.words; ++k) row[k] = ~row[k];
+    if (bits.words > 0) row[bits.words - 1] &= last;
+  }
+}
+
 // Squares and crosses in the proportion that makes an octagon.
 Mask spread_disc(const Mask& mask, int radius, bool larger) {
   const int square = (5 * radius + 6) / 12;
@@ -172,6 +182,15 @@ void blur_columns(const float* in, float* out, int width, int height, int radius
 
 Mask dilate(const Mask& mask, int radius) { return spread(mask, radius, 0, true); }
 Mask erode(const Mask& mask, int radius) { return spread(mask, radius, 0, false); }
+Mask reshape(const Mask& mask, std::initializer_list<int> radii) {
+  Bits bits = pack(mask, false);
+  for (const int radius : radii) {
+    if (radius < 0) complement(bits);
+    grow_square(bits, std::abs(radius));
+    if (radius < 0) complement(bits);
+  }
+  return unpack(bits, false);
+}
 Mask dilate_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, true); }
 Mask erode_disc(const Mask& mask, int radius) { return spread_disc(mask, radius, false); }
 

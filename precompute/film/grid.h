@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -63,7 +64,10 @@ struct Mask {
 Mask dilate(const Mask& mask, int radius);
 Mask erode(const Mask& mask, int radius);
 
-/// The same with octagons, near discs, of `radius` cells.
+/// Several of those in turn: larger by a radius above 0, smaller by one below.
+Mask reshape(const Mask& mask, std::initializer_list<int> radii);
+
+/// `dilate` and `erode` with octagons, near discs, of `radius` cells.
 Mask dilate_disc(const Mask& mask, int radius);
 Mask erode_disc(const Mask& mask, int radius);
 

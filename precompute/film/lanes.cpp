@@ -185,9 +185,16 @@ void pack_bits(const std::uint8_t* __restrict in, int n, bool complement,
   const hn::CappedTag<std::uint8_t, 64> d;
   const int step = static_cast<int>(hn::Lanes(d));
   auto* bytes = reinterpret_cast<std::uint8_t*>(bits);
-  for (; x + step <= n; x += step) {
-    const auto out = hn::Eq(hn::LoadU(d, in + x), hn::Zero(d));
-    hn::StoreMaskBits(d, complement ? out : hn::Not(out), bytes + x / 8);
+  const auto pack = [&](int at, std::uint8_t* to) {
+    const auto out = hn::Eq(hn::LoadU(d, in + at), hn::Zero(d));
+    hn::StoreMaskBits(d, complement ? out : hn::Not(out), to);
+  };
+  for (; x + step <= n; x += step) pack(x, bytes + x / 8);
+  if (x > 0 && x < n) {  // the last ones with some of those before
+    std::uint64_t last = 0;
+    pack(n - step, reinterpret_cast<std::uint8_t*>(&last));
+    bits[x / 64] |= last >> (x - (n - step)) << (x % 64);
+    x = n;
   }
 #endif
   for (; x < n; ++x)
@@ -203,9 +210,17 @@ void unpack_bits(const std::uint64_t* __restrict bits, int n, bool complement,
   const int step = static_cast<int>(hn::Lanes(d));
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(bits);
   const auto flip = hn::Set(d, static_cast<std::uint8_t>(complement ? 1 : 0));
-  for (; x + step <= n; x += step) {
-    const auto in = hn::LoadMaskBits(d, bytes + x / 8);
-    hn::StoreU(hn::Xor(hn::IfThenElseZero(in, hn::Set(d, std::uint8_t{1})), flip), d, out + x);
+  const auto unpack = [&](const std::uint8_t* from, int at) {
+    const auto in = hn::LoadMaskBits(d, from);
+    hn::StoreU(hn::Xor(hn::IfThenElseZero(in, hn::Set(d, std::uint8_t{1})), flip), d, out + at);
+  };
+  for (; x + step <= n; x += step) unpack(bytes + x / 8, x);
+  if (x > 0 && x < n) {  // the last ones with some of those before
+    const int at = n - step;
+    std::uint64_t last = bits[at / 64] >> (at % 64);
+    if (at % 64 > 0) last |= bits[at / 64 + 1] << (64 - at % 64);
+    unpack(reinterpret_cast<const std::uint8_t*>(&last), at);
+    x = n;
   }
 #endif
   for (; x < n; ++x)
@@ -561,7 +576,7 @@ void detail(const std::uint8_t* __restrict y, const float* __restrict light,
             const std::uint16_t* __restrict plate, const float* __restrict drift, int n,
             float* __restrict out, float* __restrict out_plate) {
   for (int i = 0; i < n; ++i) {
-    const float below = static_cast<float>(plate[i]) * (1.0f / 65535) + drift[i / 2];
+    const float below = static_cast<float>(plate[i]) * (1.0f / 65535) + drift[i];
     out_plate[i] = bounded(below, 0, 1);
     out[i] = light[y[i]] - out_plate[i];
   }

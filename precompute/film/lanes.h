@@ -150,7 +150,7 @@ struct Lanes {
   void (*weigh_rim)(const std::uint8_t* seeds, const float* soft, const float* alpha,
                     ConstPlanes frame, ConstPlanes plate, std::size_t n, float* weight,
                     Planes color);
-  /// Linear luma of n pixels less the plate's; `drift`: of cells, linear.
+  /// Linear luma of n pixels less the plate's and the drift, linear too.
   void (*detail)(const std::uint8_t* y, const float* light, const std::uint16_t* plate,
                  const float* drift, int n, float* out, float* out_plate);
   /// Mean of two rows of 2 n pixels by cells.

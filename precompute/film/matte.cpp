@@ -93,7 +93,7 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
   const auto rows = 2 * static_cast<std::size_t>(patch.height);
   detail.resize(rows * stride);
   plate.resize(rows * stride);
-  std::vector<float> drift(static_cast<std::size_t>(patch.width) + 1);
+  std::vector<float> drift(stride);  // a cell's twice, for its pixels
   const int w = frame.cell_width();
   const double step = w > 1 ? 2.0 / (w - 1) : 0.0;
   for (const auto& [cell_row, span] : patch.rim) {
@@ -108,7 +108,7 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
     for (int x = span.begin; x < span.end; ++x) {
       const float u = static_cast<float>(step * (patch.left + x) - 1);
       const auto at = [u](detail::RowTerms t) { return t.a + u * (t.b + u * t.c); };
-      drift[static_cast<std::size_t>(x)] =
+      drift[2 * static_cast<std::size_t>(x)] = drift[2 * static_cast<std::size_t>(x) + 1] =
           screen->slope[1][from + static_cast<std::size_t>(x)] *
           (weights.red * at(red) + weights.green * at(green) + weights.blue * at(blue));
     }
@@ -120,7 +120,7 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
       float* out = detail.data() + static_cast<std::size_t>(y) * stride;
       float* below = plate.data() + static_cast<std::size_t>(y) * stride;
       lanes().detail(frame.y.data() + pixel, light, screen->luma.data() + pixel,
-                     drift.data() + skipped, std::min(2 * span.end, width) - 2 * span.begin,
+                     drift.data() + 2 * skipped, std::min(2 * span.end, width) - 2 * span.begin,
                      out + 2 * skipped, below + 2 * skipped);
       if (2 * span.end > width) {
         out[width] = out[width - 1];

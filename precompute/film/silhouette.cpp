@@ -9,6 +9,7 @@
 
 #include "film/color.h"
 #include "film/light.h"
+#include "hwy/cache_control.h"
 
 namespace vsprite::detail {
 
@@ -280,6 +281,12 @@ void look_closely(const ScreenModel& screen, const Frame& frame, Silhouette& s) 
     const RowTerms drift[3] = {row_of(s.drift, 0, v), row_of(s.drift, 1, v), row_of(s.drift, 2, v)};
     const std::uint16_t* sums[3];
     const float* plate[3];
+    // Short runs of many maps: the next row's are asked for ahead.
+    if (y + 1 < s.window.height)
+      for (const auto* maps : {&screen.cells, &screen.linear, &screen.slope})
+        for (const std::vector<float>& map : *maps)
+          for (int x = 0; x < span.size(); x += 16)
+            hwy::Prefetch(map.data() + from + static_cast<std::size_t>(w + x));
     for (int p = 0; p < 3; ++p) {
       sums[p] = s.grid.plane[p].data() + at;
       plate[p] = screen.cells[p].data() + from;
@@ -360,8 +367,7 @@ void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& 
   blur3(s.rough, s.window.width, s.window.height, s.contrast);
   lanes().above(s.contrast.data(), screen.threshold, n, s.mask.in.data());
   if (screen.key < 0) drop_faint(screen, s);
-  s.mask = dilate(erode(s.mask, 1), 1);
-  s.mask = erode(dilate(s.mask, 2), 2);
+  s.mask = reshape(s.mask, {-1, 1, 2, -2});
   if (!find_box(s.mask, s.box)) return;
   s.box.left += s.window.left;
   s.box.top += s.window.top;

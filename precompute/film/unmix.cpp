@@ -161,7 +161,7 @@ void find_seeds(const ScreenModel& screen, Patch& patch) {
                    inverse, 0.85f, enough},
                   count, sure.in.data() + at, likely.in.data() + at);
   });
-  patch.seeds = erode(dilate(sure, 1), 2);
+  patch.seeds = reshape(sure, {1, -2});
   if (screen.kind == KeyKind::Plate) add_inside(screen, patch, patch.seeds);
   Mask deep = erode_disc(patch.region, 5);
   const Mask all_likely = erode(likely, 2);
