@@ -433,7 +433,9 @@ Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row) {
   image.height = static_cast<int>(row.height * row.scale + 0.5);
   image.rgba.assign(
       4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), 0);
-  const auto& light = detail::linear_of_sums();
+  float light[256];
+  for (std::size_t code = 0; code < 256; ++code) light[code] = detail::linear_of_sums()[4 * code];
+  const auto& codes = detail::encoded_of_steps();
   const double step = 1 / row.scale;
   const auto whole = static_cast<float>(step * step);
   const auto crop_width = static_cast<std::size_t>(frame.crop.width);
@@ -444,20 +446,21 @@ Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row) {
     const Reach rows = reach_of(row.top, step, v, frame.crop.y, frame.crop.height);
     for (int u = 0; u < image.width; ++u) {
       const Reach& columns = across[static_cast<std::size_t>(u)];
-      float sum[3] = {};
-      float cover = 0;
+      float sum[4] = {};                   // red, green, blue and the cover: lanes add them at once
       const std::uint8_t* only = nullptr;  // the pixel, where it is just one
-      for (int y = rows.from; y < rows.to; ++y)
+      for (int y = rows.from; y < rows.to; ++y) {
+        const std::size_t at = static_cast<std::size_t>(y) * crop_width;
+        const std::uint8_t* labels = frame.labels.data() + at;
+        const float share = share_of(rows, y);
         for (int x = columns.from; x < columns.to; ++x) {
-          const std::size_t at =
-              static_cast<std::size_t>(y) * crop_width + static_cast<std::size_t>(x);
-          if (frame.labels[at] != label) continue;
-          only = frame.straight.rgba.data() + 4 * at;
-          const float weight = share_of(rows, y) * share_of(columns, x) * only[3];
-          cover += weight;
-          for (int p = 0; p < 3; ++p)
-            sum[p] += weight * light[static_cast<std::size_t>(4 * only[p])];
+          if (labels[x] != label) continue;
+          only = frame.straight.rgba.data() + 4 * (at + static_cast<std::size_t>(x));
+          const float weight = share * share_of(columns, x) * only[3];
+          const float terms[4] = {light[only[0]], light[only[1]], light[only[2]], 1};
+          for (int p = 0; p < 4; ++p) sum[p] += weight * terms[p];
         }
+      }
+      const float cover = sum[3];
       if (!(cover > 0)) continue;
       std::uint8_t* out = image.rgba.data() +
                           4 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
@@ -469,7 +472,7 @@ Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row) {
       const auto alpha = static_cast<int>(cover / whole + 0.5f);
       if (alpha == 0) continue;
       out[3] = static_cast<std::uint8_t>(std::min(alpha, 255));
-      for (int p = 0; p < 3; ++p) out[p] = detail::encoded_of(sum[p] / cover);
+      for (int p = 0; p < 3; ++p) out[p] = detail::encoded_of(sum[p] / cover, codes);
     }
   }
   return image;

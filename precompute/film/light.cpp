@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "film/light.h"
 
-#include <vector>
-
 namespace vsprite::detail {
 namespace {
 
@@ -32,9 +30,9 @@ const std::array<float, 1021>& linear_of_sums() noexcept {
   return table;
 }
 
-std::uint8_t encoded_of(float linear) noexcept {
-  static const std::vector<std::uint8_t> table = [] {
-    std::vector<std::uint8_t> made(65536);
+const std::array<std::uint8_t, 65536>& encoded_of_steps() noexcept {
+  static const std::array<std::uint8_t, 65536> table = [] {
+    std::array<std::uint8_t, 65536> made{};
     int code = 0;
     for (int i = 0; i < 65536; ++i) {
       while (code < 255 && transfer((code + 0.5) / 255) < i / 65535.0) ++code;
@@ -42,8 +40,7 @@ std::uint8_t encoded_of(float linear) noexcept {
     }
     return made;
   }();
-  const float bounded = std::clamp(linear, 0.0f, 1.0f);
-  return table[static_cast<std::size_t>(bounded * 65535.0f + 0.5f)];
+  return table;
 }
 
 }  // namespace vsprite::detail

@@ -15,7 +15,13 @@ namespace vsprite::detail {
 /// of four pixels whose sum is s), s = 0..1020.
 const std::array<float, 1021>& linear_of_sums() noexcept;
 
+/// The nearest encoded byte of linear light i / 65535, i = 0..65535.
+const std::array<std::uint8_t, 65536>& encoded_of_steps() noexcept;
+
 /// The nearest encoded byte of linear light; clamps to 0..1.
-std::uint8_t encoded_of(float linear) noexcept;
+inline std::uint8_t encoded_of(
+    float linear, const std::array<std::uint8_t, 65536>& codes = encoded_of_steps()) noexcept {
+  return codes[static_cast<std::size_t>(std::clamp(linear, 0.0f, 1.0f) * 65535.0f + 0.5f)];
+}
 
 }  // namespace vsprite::detail
