@@ -21,6 +21,7 @@
 #include "film/light.h"
 #include "film/touch_up.h"
 #include "film/unmix.h"
+#include "hwy/cache_control.h"
 
 namespace vsprite {
 namespace {
@@ -117,6 +118,12 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
       const std::size_t pixel =
           static_cast<std::size_t>(top + y) * static_cast<std::size_t>(frame.width) +
           static_cast<std::size_t>(left) + 2 * skipped;
+      if (y + 2 < height) {  // the next cells' pixels are asked for ahead
+        const std::uint8_t* next = frame.y.data() + pixel + 2 * frame.width;
+        const std::uint16_t* next_plate = screen->luma.data() + pixel + 2 * frame.width;
+        for (int x = 0; x < 2 * span.size(); x += 64) hwy::Prefetch(next + x);
+        for (int x = 0; x < 2 * span.size(); x += 32) hwy::Prefetch(next_plate + x);
+      }
       float* out = detail.data() + static_cast<std::size_t>(y) * stride;
       float* below = plate.data() + static_cast<std::size_t>(y) * stride;
       lanes().detail(frame.y.data() + pixel, light, screen->luma.data() + pixel,

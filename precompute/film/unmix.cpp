@@ -405,8 +405,10 @@ bool add_unexplained(Patch& patch) {
   std::vector<float>& gone = patch.color[0];  // nothing else is in them yet
   std::vector<float>& about = patch.color[1];
   each_span(patch, [&](std::size_t at, std::size_t count) {
-    for (std::size_t i = at; i < at + count; ++i)
-      gone[i] = std::clamp(std::max(patch.key[i], patch.bound[i]), 0.0f, 1.0f);
+    for (std::size_t i = at; i < at + count; ++i) {
+      const float most = patch.key[i] > patch.bound[i] ? patch.key[i] : patch.bound[i];  // >= 0
+      gone[i] = most < 1 ? most : 1.0f;
+    }
   });
   blur_spans(patch, gone, about);
   Mask covered(patch.width, patch.height);
