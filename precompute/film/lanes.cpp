@@ -554,6 +554,48 @@ void project(const ProjectionRow& row, float spill, int begin, int end, int n) {
   }
 }
 
+constexpr float kBetter = 2;      // residual less that makes a colourless part sure
+constexpr float kColored = 0.3f;  // distance from grey over brightness from which a foreground is a
+constexpr float kSurely = 0.5f;   // colour, and surely is one
+
+void colorless(ConstPlanes frame, ConstPlanes plate, ConstPlanes noise, ConstPlanes mean,
+               const float* __restrict bound, const float* __restrict residual, float most,
+               std::size_t n, float* __restrict alpha, float* __restrict share) {
+  const float* __restrict c0 = frame[0];
+  const float* __restrict c1 = frame[1];
+  const float* __restrict c2 = frame[2];
+  const float* __restrict b0 = plate[0];
+  const float* __restrict b1 = plate[1];
+  const float* __restrict b2 = plate[2];
+  const float* __restrict s0 = noise[0];
+  const float* __restrict s1 = noise[1];
+  const float* __restrict s2 = noise[2];
+  const float* __restrict f0 = mean[0];
+  const float* __restrict f1 = mean[1];
+  const float* __restrict f2 = mean[2];
+  for (std::size_t i = 0; i < n; ++i) {
+    // Each less its grey: c and b meet where the part is colourless.
+    const float bright = (f0[i] + f1[i] + f2[i]) * (1.0f / 3);
+    const float seen = (c0[i] + c1[i] + c2[i]) * (1.0f / 3);
+    const float behind = (b0[i] + b1[i] + b2[i]) * (1.0f / 3);
+    const float fr = f0[i] - bright, fg = f1[i] - bright, fb = f2[i] - bright;
+    const float cr = c0[i] - seen, cg = c1[i] - seen, cb = c2[i] - seen;
+    const float br = b0[i] - behind, bg = b1[i] - behind, bb = b2[i] - behind;
+    const float strength = larger_of(br * br + bg * bg + bb * bb, 1e-9f);
+    const float left = bounded((cr * br + cg * bg + cb * bb) / strength, 0, 0.98f);
+    const float r = cr - left * br, g = cg - left * bg, b = cb - left * bb;
+    const float hue = kHue * (seen - left * behind);
+    const float sigma = s0[i] * s0[i] + s1[i] * s1[i] + s2[i] * s2[i];
+    const float odd = (r * r + g * g + b * b) / (3 * sigma + hue * hue + 1e-12f);
+    const float away = std::sqrt(fr * fr + fg * fg + fb * fb) / larger_of(bright, 1e-3f);
+    const float colored = bounded((away - kColored) / (kSurely - kColored), 0, 1);
+    const float a = larger_of(1 - left, bound[i]);
+    const float sure = colored * bounded((residual[i] - odd) / kBetter, 0, 1);
+    alpha[i] = a;
+    share[i] = a < most ? sure : 0;
+  }
+}
+
 void weigh_rim(const std::uint8_t* __restrict seeds, const float* __restrict soft,
                const float* __restrict alpha, ConstPlanes frame, ConstPlanes plate, std::size_t n,
                float* __restrict weight, Planes color) {
@@ -760,13 +802,13 @@ std::uint32_t difference(const std::uint8_t* __restrict a, const std::uint8_t* _
 
 const Lanes* get_lanes() {
   static constexpr Lanes kLanes = {
-      count_different, sum_cells,       contrast,     look_up,     shift,       forgive_shadows,
-      above,           spread_into,     pack_bits,    unpack_bits, sum5,        sum3,
-      add_far,         blur3,           gamut_bound,  key_share,   distance,    score,
-      moments,         double_row,      project,      modes,       set_sure,    weigh_rim,
-      detail,          halve,           gain,         mark_inner,  raise_alpha, settle,
-      own_color,       encode_weighted, paint_filmed, paint_own,   cover,       name_pixels,
-      difference};
+      count_different, sum_cells,   contrast,        look_up,      shift,      forgive_shadows,
+      above,           spread_into, pack_bits,       unpack_bits,  sum5,       sum3,
+      add_far,         blur3,       gamut_bound,     key_share,    distance,   score,
+      moments,         double_row,  project,         modes,        set_sure,   colorless,
+      weigh_rim,       detail,      halve,           gain,         mark_inner, raise_alpha,
+      settle,          own_color,   encode_weighted, paint_filmed, paint_own,  cover,
+      name_pixels,     difference};
   return &kLanes;
 }
 

@@ -146,6 +146,12 @@ struct Lanes {
                 std::size_t n, std::uint8_t* mode, float* alpha);
   /// values = 1 where `seeds`.
   void (*set_sure)(const std::uint8_t* seeds, std::size_t n, float* values);
+  /// Alpha of a colourless part, C = g (1, 1, 1) + (1 - alpha) B, and how surely (0..1) that is
+  /// one: where the foreground nearby is a colour and `residual`, what it leaves unexplained, is
+  /// more. From alpha = `most` on it is none.
+  void (*colorless)(ConstPlanes frame, ConstPlanes plate, ConstPlanes noise, ConstPlanes mean,
+                    const float* bound, const float* residual, float most, std::size_t n,
+                    float* alpha, float* share);
   /// The weight of a cell's colour in its neighbourhood by how opaque the rim is, and that colour.
   void (*weigh_rim)(const std::uint8_t* seeds, const float* soft, const float* alpha,
                     ConstPlanes frame, ConstPlanes plate, std::size_t n, float* weight,

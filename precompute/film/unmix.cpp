@@ -360,7 +360,7 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
     if (span.size() == 0) continue;
     const std::size_t at = static_cast<std::size_t>(y) * width;
     float* alpha = patch.alpha.data() + at;
-    if (!means) std::fill_n(patch.residual.data() + at + span.begin, span.size(), 0.0f);
+    std::fill_n(patch.residual.data() + at + span.begin, span.size(), 0.0f);
     std::fill(patch.mode.begin(), patch.mode.end(), std::uint8_t{0});
     const auto skipped = static_cast<std::size_t>(span.begin);
     if (!run.modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped,
@@ -378,7 +378,7 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
     }
     row.bound = patch.bound.data() + at;
     row.alpha = alpha;
-    row.residual = means ? nullptr : patch.residual.data() + at;
+    row.residual = patch.residual.data() + at;
     each_run(patch.mode.data(), span, [&](int begin, int end) {
       // The run's squares and those beside them.
       const int from = std::max(begin / 2 - 1, 0);
@@ -390,6 +390,33 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
       run.project(row, spill, begin, end, patch.width);
     });
   }
+}
+
+// Clear wings, lace or smoke beside a coloured body are no mixture with its colour: what takes from
+// the screen's alone explains them better. Over some width, for rims are full of errors; and what
+// has lost most of the screen may be a seed yet.
+void allow_colorless(Patch& patch) {
+  constexpr int kWide = 2;                   // cells to all sides
+  std::vector<float>& alpha = patch.weight;  // both are made anew for their own uses
+  std::vector<float>& share = patch.soft;
+  share.resize(patch.cells() + kRoom);
+  Mask wide(patch.width, patch.height);
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    const ConstPointers frame(patch.frame, at);
+    const ConstPointers plate(patch.plate, at);
+    const ConstPointers noise(patch.noise, at);
+    const ConstPointers mean(patch.mean, at);
+    lanes().colorless(frame.at, plate.at, noise.at, mean.at, patch.bound.data() + at,
+                      patch.residual.data() + at, kCovered, count, alpha.data() + at,
+                      share.data() + at);
+    lanes().above(share.data() + at, 0, count, wide.in.data() + at);
+  });
+  wide = dilate(erode(wide, kWide), kWide);
+  for (std::size_t i = 0; i < wide.in.size(); ++i)
+    if (wide.in[i]) {
+      patch.alpha[i] += share[i] * (alpha[i] - patch.alpha[i]);
+      patch.residual[i] *= 1 - share[i];
+    }
 }
 
 // What no mixture explains, with all its neighbours, is another part of the subject: surely if most
@@ -507,10 +534,11 @@ void unmix(const ScreenModel& screen, Patch& patch) {
     });
     gather_moments(patch, patch.weight, patch.frame);
     solve_alpha(patch, kSpill, nullptr);
+    if (screen.key >= 0) allow_colorless(patch);
     if (round > 0 || !add_unexplained(patch)) break;
   }
   if (screen.key >= 0) grow_seeds(patch);
-  patch.soft.resize(n);
+  patch.soft.resize(n + kRoom);
   blur_spans(patch, patch.alpha, patch.soft);
   each_span(patch, [&](std::size_t at, std::size_t count) {
     const ConstPointers frame(patch.frame, at);
@@ -522,6 +550,7 @@ void unmix(const ScreenModel& screen, Patch& patch) {
   gather_moments(patch, patch.weight, patch.color);
   const Mask edge = find_rim(patch);
   solve_alpha(patch, kRimSpill, &edge);
+  if (screen.key >= 0) allow_colorless(patch);
 }
 
 }  // namespace vsprite::detail

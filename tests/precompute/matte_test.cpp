@@ -190,6 +190,39 @@ TEST(Matte, BorderContactIsSeen) {
   EXPECT_TRUE(keyed.blobs[0].touches_border);
 }
 
+// An orange body before a green screen with a clear, colourless wing above it: 36 px wide, 30 high,
+// its lower edge in the body.
+Frame with_a_wing(int index, double x, double cover) {
+  SyntheticFilm film;
+  film.screen[0] = 70, film.screen[1] = 140, film.screen[2] = 75;
+  const Disc body{x, 150, 40, 22};
+  Image made = film.image(index, {body});
+  for (int v = 105; v < 135; ++v)
+    for (int u = static_cast<int>(x) - 18; u < static_cast<int>(x) + 18; ++u)
+      for (int c = 0; c < 3 && film.alpha(body, u, v) <= 0; ++c) {
+        std::uint8_t& p = made.rgba[static_cast<std::size_t>(4 * (v * film.width + u) + c)];
+        p = static_cast<std::uint8_t>(
+            SyntheticFilm::code(cover * 0.45 + (1 - cover) * SyntheticFilm::linear(p)) + 0.5);
+      }
+  return to_frame(made, index);
+}
+
+TEST(Matte, AColorlessWingOfAColoredBodyIsAsClearAsItIs) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i) frames.push_back(with_a_wing(i, 60.0 + 12 * i, 0.4));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  Keyer keyer(*screen, {});
+  for (const double cover : {0.25, 0.4, 0.55}) {
+    const KeyedFrame keyed = keyer.key(with_a_wing(40, 160, cover), nullptr);
+    EXPECT_EQ(alpha_of(keyed, 160, 150), 255);
+    double sum = 0;
+    for (int v = 109; v < 123; ++v)
+      for (int u = 148; u < 172; ++u) sum += alpha_of(keyed, u, v) / 255.0;
+    EXPECT_NEAR(sum / (14 * 24), cover, 0.04);
+  }
+}
+
 // A dark subject on a pale floor, at x = 205, and from x = 220 on a wall not much paler than it, in
 // which a wider and fainter picture of it shows.
 Frame before_a_glossy_wall(int index, double y) {
