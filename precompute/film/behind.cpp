@@ -254,7 +254,8 @@ float roughness(const Mask& doubtful, const std::vector<Color>& centre) {
 
 }  // namespace
 
-bool look_behind(const std::vector<Grid>& grids, float noise, std::vector<float> (&planes)[3]) {
+bool look_behind(const std::vector<Grid>& grids, float noise, std::vector<float> (&planes)[3],
+                 Mask& foreign) {
   const float reach = std::clamp(3.5f * noise + 1, 12.0f, 24.0f);
   const int w = grids[0].width;
   const int h = grids[0].height;
@@ -279,7 +280,6 @@ bool look_behind(const std::vector<Grid>& grids, float noise, std::vector<float>
   // Twice: what the first choice found bare is then around the rest.
   const float prior = kPlain / (kPlain + roughness(doubtful, centre));
   std::vector<Color> outside;
-  Mask foreign;
   for (int pass = 0; pass < 2; ++pass) {
     std::vector<Color> around = centre;
     fill_smoothly(around, weight, w, h);

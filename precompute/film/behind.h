@@ -16,7 +16,9 @@ namespace vsprite::detail {
 
 /// Corrects `centre` (of cells, R G B code values, medians of `grids` over time) where the subject
 /// rests. `noise`: of bare samples, code values. True if anything changed. Cost: a
-/// look at every sample, more for the cells in doubt.
-bool look_behind(const std::vector<Grid>& grids, float noise, std::vector<float> (&centre)[3]);
+/// look at every sample, more for the cells in doubt. `invented`: 1 where it was filled in; empty
+/// where nothing was looked for.
+bool look_behind(const std::vector<Grid>& grids, float noise, std::vector<float> (&centre)[3],
+                 Mask& invented);
 
 }  // namespace vsprite::detail

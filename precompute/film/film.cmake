@@ -12,6 +12,7 @@ target_sources(vsprite_precompute PRIVATE
   film/lanes.cpp
   film/grid.cpp
   film/silhouette.cpp
+  film/cut.cpp
   film/behind.cpp
   film/plate.cpp
   film/unmix.cpp

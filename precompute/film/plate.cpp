@@ -16,6 +16,7 @@
 #include "film/behind.h"
 #include "film/color.h"
 #include "film/coverage.h"
+#include "film/cut.h"
 #include "film/light.h"
 #include "film/silhouette.h"
 
@@ -480,7 +481,8 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
   const double noise =
       std::sqrt(bare.sigma[0] * bare.sigma[0] +
                 2 * (bare.sigma[1] * bare.sigma[1] + bare.sigma[2] * bare.sigma[2]));
-  if (detail::look_behind(grids, static_cast<float>(noise), bare.centre)) {
+  Mask invented;
+  if (detail::look_behind(grids, static_cast<float>(noise), bare.centre, invented)) {
     bare.in.clear();
     find_bare(grids, kAnySigma, bare);
   }
@@ -494,6 +496,8 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
   measure_noise(frames, grids, bare, screen);
   measure_color(screen);
   screen.kind = KeyKind::Plate;
+  screen.witness = std::move(invented.in);
+  screen.witness.resize(bare.centre[0].size());
   screen.reason =
       "plate: the camera stands, " + percent(bare.steady) + " of the picture stays as it is";
   return screen;
@@ -509,6 +513,44 @@ void mark_unlike(const float (&subject)[3], ScreenModel& screen) {
         detail::distance_squared(subject[0] - screen.cells[0][i], subject[1] - screen.cells[1][i],
                                  subject[2] - screen.cells[2][i]);
     screen.unlike[i] = away > least * least ? 1 : 0;
+  }
+}
+
+// The colours of what stands out as the subject does: its shadow is fainter. A plate of such a
+// colour where the subject was about in a quarter of the frames may be the subject.
+void learn_colors(std::span<const Frame> frames, ScreenModel& screen) {
+  constexpr int kLikely = 480;  // of a colour that the subject has
+  detail::SubjectColors colors;
+  detail::Silhouette s;
+  Mask about((screen.width + 1) / 2, (screen.height + 1) / 2);
+  std::vector<std::uint16_t> visits(about.in.size());
+  int seen = 0;
+  for (const Frame& frame : frames) {
+    detail::find_silhouette(screen, frame, s);
+    if (s.empty) continue;
+    const Mask inside = erode(s.mask, 1);
+    for (int y = 0; y < inside.height; ++y)
+      for (int x = 0; x < inside.width; ++x) {
+        const auto i = static_cast<std::size_t>(y * inside.width + x);
+        const auto cell = static_cast<std::size_t>((s.window.top + y) * about.width +
+                                                   s.window.left + x);
+        if (inside.in[i] && (s.contrast[i] > 0.5f * screen.subject_contrast ||
+                             screen.witness[cell] == kInvented))
+          colors.add(s.grid.plane[0][i], s.grid.plane[1][i], s.grid.plane[2][i]);
+      }
+    ++seen;
+    std::fill(about.in.begin(), about.in.end(), std::uint8_t{0});
+    const Mask near = dilate(s.mask, detail::kCutReach);
+    for (int y = 0; y < near.height; ++y)
+      std::copy_n(near.row(y), near.width, about.row(s.window.top + y) + s.window.left);
+    for (std::size_t i = 0; i < visits.size(); ++i) visits[i] += about.in[i];
+  }
+  screen.subject_cost = colors.costs();
+  for (std::size_t i = 0; i < visits.size() && !screen.subject_cost.empty(); ++i) {
+    std::size_t bin = 0;
+    for (const auto& plane : screen.cells)
+      bin = 16 * bin + static_cast<std::size_t>(std::clamp(plane[i], 0.0f, 255.0f)) / 16;
+    if (4 * visits[i] > seen && screen.subject_cost[bin] < kLikely) screen.witness[i] = kOccupied;
   }
 }
 
@@ -593,6 +635,7 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
       subject[p] = static_cast<float>(0.25 * sum / count);
     }
     mark_unlike(subject, screen);
+    learn_colors(frames, screen);
   }
   if (areas.empty()) return;
   std::nth_element(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2),

@@ -36,6 +36,9 @@ struct KeyConfig {
 Result<KeyConfig> parse_key(const std::string& text);
 
 /// The background, per pixel, and how much it varies. Immutable once made.
+/// Seen bare; never bare and filled in; the subject itself perhaps, which was always about there.
+enum PlateWitness : std::uint8_t { kBare, kInvented, kOccupied };
+
 struct ScreenModel {
   KeyKind kind = KeyKind::Color;
   std::string reason;  ///< why this kind: one sentence for the report
@@ -59,6 +62,11 @@ struct ScreenModel {
   /// Of cells: 1 where the plate looks unlike the subject; empty: everywhere. Elsewhere a faint
   /// difference may as well be its shadow or reflection (kind Plate).
   std::vector<std::uint8_t> unlike;
+  /// What each colour (16 steps of R, G, B) costs as the subject's, 64ths of a nat (film/cut.h);
+  /// empty: it is not known (all kinds but Plate).
+  std::vector<std::int16_t> subject_cost;
+  /// Of cells, with subject_cost: what the plate says there, a PlateWitness.
+  std::vector<std::uint8_t> witness;
   int opening = 2;   ///< cells, radius that removes tail and fins from the anchor's mask
   float hidden = 0;  ///< share of the plate that was never seen bare, 0..1
 };

@@ -18,8 +18,8 @@ extern "C" {
 namespace vsprite::detail {
 namespace {
 
-// Writes a plane as a player shows it, turned clockwise by 0, 90, 180 or 270 degrees; `size` bytes a
-// pixel. Returns the end of what it wrote.
+// Writes a plane as a player shows it, turned clockwise by 0, 90, 180 or 270 degrees; `size` bytes
+// a pixel. Returns the end of what it wrote.
 std::uint8_t* put_turned(const std::uint8_t* data, std::ptrdiff_t stride, int width, int height,
                          int degrees, int size, std::uint8_t* out) {
   if (degrees == 0) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "film/color.h"
+#include "film/cut.h"
 #include "film/light.h"
 #include "hwy/cache_control.h"
 
@@ -332,7 +333,8 @@ void drop_faint(const ScreenModel& screen, Silhouette& s) {
   lanes().spread_into(near.in.data(), near.in.size(), false, s.mask.in.data());
 }
 
-// The rectangle of what is in.
+}  // namespace
+
 bool find_box(const Mask& mask, Window& box) {
   int left = mask.width;
   int right = 0;
@@ -354,8 +356,6 @@ bool find_box(const Mask& mask, Window& box) {
   return right > left;
 }
 
-}  // namespace
-
 void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
   s.empty = true;
   s.drift = fit_drift(screen, frame, screen.threshold);
@@ -368,6 +368,7 @@ void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& 
   lanes().above(s.contrast.data(), screen.threshold, n, s.mask.in.data());
   if (screen.key < 0) drop_faint(screen, s);
   s.mask = reshape(s.mask, {-1, 1, 2, -2});
+  if (!screen.subject_cost.empty()) cut_out(screen, frame, s);
   if (!find_box(s.mask, s.box)) return;
   s.box.left += s.window.left;
   s.box.top += s.window.top;

@@ -103,6 +103,9 @@ inline constexpr float kUnlike = 0.5f;
 /// The channels of colour difference `key`.
 KeyShape shape_of(int key) noexcept;
 
+/// The rectangle of what is in; false where nothing is.
+bool find_box(const Mask& mask, Window& box);
+
 /// Finds what is not screen. The result's buffers are reused from call to call.
 void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& result);
 

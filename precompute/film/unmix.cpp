@@ -138,11 +138,13 @@ void fill_holes(const Patch& patch, Mask& seeds) {
 }
 
 // A standing plate of any texture says nothing of translucence: what stands out, two cells inside,
-// is opaque.
+// is opaque; and all of what was cut out.
 void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
-  Mask strong(patch.width, patch.height);
-  lanes().above(patch.contrast.data(), 2 * screen.threshold, strong.in.size(), strong.in.data());
-  lanes().spread_into(patch.core.in.data(), strong.in.size(), false, strong.in.data());
+  Mask strong = patch.core;
+  if (screen.subject_cost.empty()) {
+    lanes().above(patch.contrast.data(), 2 * screen.threshold, strong.in.size(), strong.in.data());
+    lanes().spread_into(patch.core.in.data(), strong.in.size(), false, strong.in.data());
+  }
   const Mask inside = erode(strong, 2);
   lanes().spread_into(inside.in.data(), seeds.in.size(), true, seeds.in.data());
 }
