@@ -262,7 +262,8 @@ Error nothing_left(const Extraction& result, const ExtractConfig& config) {
   why.resize(why.size() - std::min<std::size_t>(why.size(), 2));
   return {ErrorCode::BadContent, "no clip of " + std::to_string(config.min_clip) +
                                      " samples is left: " + std::to_string(result.fates.size()) +
-                                     " frames, " + why + "; film the subject whole, for longer"};
+                                     (result.fates.size() == 1 ? " frame, " : " frames, ") + why +
+                                     "; film the subject whole, for longer"};
 }
 
 void add_mirrored(Extraction& result) {

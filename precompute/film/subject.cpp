@@ -273,8 +273,8 @@ class Meeting {
 
 Error no_subject(std::size_t frames) {
   return {ErrorCode::BadContent, "no subject: nothing differs from the screen in " +
-                                     std::to_string(frames) +
-                                     " frames; due: one subject before a steady background"};
+                                     std::to_string(frames) + (frames == 1 ? " frame" : " frames") +
+                                     "; due: one subject before a steady background"};
 }
 
 Error several(std::span<const FrameSummary> frames, const Rivals& rivals) {
