@@ -589,9 +589,12 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
     for (std::size_t i = 0; i < deep.in.size(); ++i) {
       if (!deep.in[i]) continue;
       if (screen.key < 0) {
-        const float d = std::sqrt(detail::distance_squared(s.frame[0][i] - s.plate[0][i],
-                                                           s.frame[1][i] - s.plate[1][i],
-                                                           s.frame[2][i] - s.plate[2][i]));
+        float d = 0;  // as lanes().distance has it
+        for (int p = 0; p < 3; ++p) {
+          const float r = s.frame[p][i] - s.plate[p][i];
+          d += r * r;
+        }
+        d = std::sqrt(d);
         ++strengths[static_cast<std::size_t>(std::min(d * kDistanceSteps, 399.0f))];
         ++strength_count;
         continue;
