@@ -103,11 +103,13 @@ void gather_evidence(const ScreenModel& screen, Patch& patch) {
     if (!patch.region.in[i]) patch.key[i] = 0;
   // Fur that leaves a third of a white screen in sight stands out as much as a whole animal does
   // before black: the film says how much is all. Before a plate of any texture it cannot.
+  // Before a plain one what is much fainter than that is translucent, however wide: a fly's wings.
   const bool plain = screen.kind == KeyKind::Color;
   const float usual = plain ? std::max(screen.key_normaliser, 0.3f) : 0.3f;
+  const float least = plain ? 0.4f * usual : 0.02f;
   const float gain = plain ? 1.0f : 1.25f;
   const std::vector<float> most = largest_around(patch.key, patch.width, patch.height, 4);
-  for (std::size_t i = 0; i < n; ++i) patch.key[i] *= gain / std::clamp(most[i], 0.02f, usual);
+  for (std::size_t i = 0; i < n; ++i) patch.key[i] *= gain / std::clamp(most[i], least, usual);
 }
 
 // Holes are filled unless a cell of theirs looks like screen.

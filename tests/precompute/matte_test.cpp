@@ -223,6 +223,39 @@ TEST(Matte, AColorlessWingOfAColoredBodyIsAsClearAsItIs) {
   }
 }
 
+// A pale body before black with a wing of its own colour, wider than what is looked at around a
+// place.
+Frame with_a_pale_wing(int index, double x, double cover) {
+  SyntheticFilm film;
+  film.noise = 1;
+  for (int c = 0; c < 3; ++c) film.screen[c] = 12, film.subject[c] = 205;
+  const Disc body{x, 170, 44, 26};
+  Image made = film.image(index, {body});
+  for (int v = 80; v < 155; ++v)
+    for (int u = static_cast<int>(x) - 35; u < static_cast<int>(x) + 35; ++u)
+      for (int c = 0; c < 3 && film.alpha(body, u, v) <= 0; ++c) {
+        std::uint8_t& p = made.rgba[static_cast<std::size_t>(4 * (v * film.width + u) + c)];
+        p = static_cast<std::uint8_t>(SyntheticFilm::code(cover * SyntheticFilm::linear(205) +
+                                                          (1 - cover) * SyntheticFilm::linear(p)) +
+                                      0.5);
+      }
+  return to_frame(made, index);
+}
+
+TEST(Matte, AWideFaintWingBeforeBlackIsNotOpaque) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i) frames.push_back(with_a_pale_wing(i, 60.0 + 12 * i, 0.15));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  ASSERT_LT(screen->key, 0) << screen->reason;
+  const KeyedFrame keyed = Keyer(*screen, {}).key(with_a_pale_wing(40, 160, 0.15), nullptr);
+  EXPECT_EQ(alpha_of(keyed, 160, 170), 255);
+  double sum = 0;
+  for (int v = 90; v < 120; ++v)
+    for (int u = 135; u < 185; ++u) sum += alpha_of(keyed, u, v) / 255.0;
+  EXPECT_NEAR(sum / (30 * 50), 0.15, 0.05);
+}
+
 // A dark subject on a pale floor, at x = 205, and from x = 220 on a wall not much paler than it, in
 // which a wider and fainter picture of it shows.
 Frame before_a_glossy_wall(int index, double y) {
