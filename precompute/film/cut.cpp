@@ -3,7 +3,6 @@
 #include "film/cut.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace vsprite::detail {
@@ -21,8 +20,7 @@ int cost_of(double x) {
 }  // namespace
 
 void SubjectColors::add(int red, int green, int blue) {
-  const auto bin = [](int sum) { return static_cast<std::size_t>(std::min(sum / 64, 15)); };
-  ++counts_[256 * bin(red) + 16 * bin(green) + bin(blue)];
+  ++counts_[color_step(red, green, blue)];
   ++all_;
 }
 
@@ -49,7 +47,7 @@ std::vector<std::int16_t> SubjectColors::costs() const {
   return costs;
 }
 
-GridCut::GridCut(int width, int height) : width_(width), height_(height), stride_(width + 2) {
+GridCut::GridCut(int width, int height) : stride_(width + 2) {
   const std::ptrdiff_t s = stride_;
   const std::ptrdiff_t steps[8] = {1, s - 1, s, s + 1, -1, 1 - s, -s, -s - 1};
   std::copy(steps, steps + 8, step_);
@@ -171,9 +169,7 @@ void GridCut::adopt() {
     for (int w = 0; w < 8; ++w) {
       const std::size_t other = beside(orphan, w);
       if (tree_[other] != tree_[orphan] || parent_[other] == kNone) continue;
-      const int room =
-          tree_[orphan] == kSource ? residual(other, opposite(w)) : residual(orphan, w);
-      if (room <= 0) continue;
+      if (onwards(other, opposite(w)) <= 0) continue;
       const int steps = origin(other);
       if (steps >= 0 && steps < least) least = steps, best = w;
     }
@@ -186,9 +182,7 @@ void GridCut::adopt() {
     for (int w = 0; w < 8; ++w) {
       const std::size_t other = beside(orphan, w);
       if (tree_[other] != tree_[orphan]) continue;
-      const int room =
-          tree_[orphan] == kSource ? residual(other, opposite(w)) : residual(orphan, w);
-      if (room > 0) activate(other);
+      if (onwards(other, opposite(w)) > 0) activate(other);
       if (parent_[other] == opposite(w)) {
         parent_[other] = kNone;
         orphans_.push_back(other);
@@ -236,21 +230,21 @@ constexpr int kSure = 1 << 20;    // a capacity above all others together
 
 struct Cells {
   const ScreenModel& screen;
-  const Frame& frame;
   const Silhouette& s;
-  int grid_width;
 
+  int width() const { return (screen.width + 1) / 2; }
+  int height() const { return (screen.height + 1) / 2; }
   std::size_t window(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(s.window.width) +
            static_cast<std::size_t>(x);
   }
   std::size_t film(int x, int y) const {
-    return static_cast<std::size_t>(s.window.top + y) * static_cast<std::size_t>(grid_width) +
+    return static_cast<std::size_t>(s.window.top + y) * static_cast<std::size_t>(width()) +
            static_cast<std::size_t>(s.window.left + x);
   }
   float shift(int p, int x, int y) const {
-    return static_cast<float>(s.drift.at(p, scaled(s.window.left + x, grid_width),
-                                         scaled(s.window.top + y, frame.cell_height())));
+    return static_cast<float>(
+        s.drift.at(p, scaled(s.window.left + x, width()), scaled(s.window.top + y, height())));
   }
 };
 
@@ -270,13 +264,13 @@ float plate_cost(const Cells& c, int x, int y, float noise, bool thin) {
   if (least <= kMoved) return least;
   const int gx = c.s.window.left + x;
   const int gy = c.s.window.top + y;
-  for (int v = std::max(gy - 1, 0); v <= std::min(gy + 1, c.frame.cell_height() - 1); ++v)
-    for (int u = std::max(gx - 1, 0); u <= std::min(gx + 1, c.grid_width - 1); ++u)
-      least = std::min(least, kMoved + away(c, i, shift,
-                                            static_cast<std::size_t>(v) *
-                                                    static_cast<std::size_t>(c.grid_width) +
-                                                static_cast<std::size_t>(u),
-                                            noise));
+  for (int v = std::max(gy - 1, 0); v <= std::min(gy + 1, c.height() - 1); ++v)
+    for (int u = std::max(gx - 1, 0); u <= std::min(gx + 1, c.width() - 1); ++u)
+      least = std::min(
+          least, kMoved + away(c, i, shift,
+                               static_cast<std::size_t>(v) * static_cast<std::size_t>(c.width()) +
+                                   static_cast<std::size_t>(u),
+                               noise));
   if (thin) return least;
   // C = s B in linear light: what is left of C, against the plate's own light.
   float cb = 0, bb = 0;
@@ -299,12 +293,10 @@ float plate_cost(const Cells& c, int x, int y, float noise, bool thin) {
 // In 64ths of a nat: above 0 the cell is rather subject.
 int odds_of(const Cells& c, int x, int y, float noise, bool thin) {
   const std::size_t i = c.window(x, y);
-  std::size_t bin = 0;
-  for (const auto& plane : c.s.grid.plane)
-    bin = 16 * bin + static_cast<std::size_t>(std::min(plane[i] / 64, 15));
+  const auto& sums = c.s.grid.plane;
   const std::uint8_t witness = c.screen.witness[c.film(x, y)];
   const float cost = witness == kInvented ? kUnknown : plate_cost(c, x, y, noise, thin);
-  const int subject = c.screen.subject_cost[bin];
+  const int subject = c.screen.subject_cost[color_step(sums[0][i], sums[1][i], sums[2][i])];
   const int odds = static_cast<int>(kUnit * cost) - (thin ? std::min(subject, kMixed) : subject);
   return witness == kOccupied ? std::max(odds, static_cast<int>(kUnit)) : odds;
 }
@@ -327,37 +319,37 @@ int seam_of(const Cells& c, int x, int y, int u, int v, bool thin) {
   return static_cast<int>(kUnit * length * (smooth + kLeastSmooth));
 }
 
-// Turns parts of fewer than `fewest` cells over. Returns the size of the largest.
-int drop_parts(Mask& mask, int fewest) {
+// Drops parts of less than a two-hundredth of `whole` cells; 0: of the largest. Returns that whole.
+int drop_parts(Mask& mask, int whole) {
   std::vector<int> labels;
   std::vector<int> size(static_cast<std::size_t>(connected_parts(mask, labels)) + 1);
   for (const int label : labels) ++size[static_cast<std::size_t>(label)];
-  size[0] = fewest;
-  for (std::size_t i = 0; i < labels.size(); ++i)
-    if (size[static_cast<std::size_t>(labels[i])] < fewest) mask.in[i] = 0;
   size[0] = 0;
-  return *std::max_element(size.begin(), size.end());
+  if (whole == 0) whole = *std::max_element(size.begin(), size.end());
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (size[static_cast<std::size_t>(labels[i])] < whole / 200) mask.in[i] = 0;
+  return whole;
 }
 
 // Leaves in the wind, and places where the subject looks just like the plate.
 void clean(Mask& mask) {
   const int largest = drop_parts(mask, 0);
-  drop_parts(mask, largest / 200);
+  if (largest == 0) return;
   for (std::uint8_t& in : mask.in) in ^= 1;
-  drop_parts(mask, largest / 200);
+  drop_parts(mask, largest);
   for (std::uint8_t& in : mask.in) in ^= 1;
 }
 
 }  // namespace
 
-void cut_out(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
+void cut_out(const ScreenModel& screen, Silhouette& s) {
   Window box;  // of the mask and what it may grow into, and a cell more
   if (!find_box(s.mask, box)) return;
   const int left = std::max(box.left - kCutReach - 1, 0);
   const int top = std::max(box.top - kCutReach - 1, 0);
   const int right = std::min(box.left + box.width + kCutReach + 1, s.window.width);
   const int bottom = std::min(box.top + box.height + kCutReach + 1, s.window.height);
-  const Cells cells{screen, frame, s, frame.cell_width()};
+  const Cells cells{screen, s};
   Mask reach = dilate(s.mask, kCutReach);
   for (int y = top; y < bottom; ++y) {
     const Span span = s.spans[static_cast<std::size_t>(y)];
@@ -371,12 +363,9 @@ void cut_out(const ScreenModel& screen, const Frame& frame, Silhouette& s) {
     }
   }
   // Tails, of which no cell has the subject's own colour; shadows are broad.
-  Mask thin = dilate(erode(s.mask, 2), 2);
+  Mask thin = reshape(s.mask, {-2, 2});
   for (std::size_t i = 0; i < thin.in.size(); ++i) thin.in[i] = s.mask.in[i] & (thin.in[i] ^ 1);
-  const float noise = 1.5f * std::max(std::sqrt(screen.noise[0] * screen.noise[0] +
-                                                2 * (screen.noise[1] * screen.noise[1] +
-                                                     screen.noise[2] * screen.noise[2])),
-                                      2.0f);
+  const float noise = 1.5f * std::max(screen.whole_noise(), 2.0f);
   GridCut graph(right - left, bottom - top);
   for (int y = top; y < bottom; ++y)
     for (int x = left; x < right; ++x) {

@@ -14,6 +14,8 @@
 // a graph (Boykov and Kolmogorov, 2004), in integers.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,12 +23,18 @@
 
 namespace vsprite::detail {
 
-/// What colours the subject has, in 16 steps a channel.
+/// The number of a colour in 16 steps a channel, of the sums of four encoded pixels.
+inline std::size_t color_step(int red, int green, int blue) {
+  const auto step = [](int sum) { return static_cast<std::size_t>(std::min(sum / 64, 15)); };
+  return 256 * step(red) + 16 * step(green) + step(blue);
+}
+
+/// What colours the subject has.
 class SubjectColors {
  public:
   /// `sums` of four encoded pixels, R, G, B.
   void add(int red, int green, int blue);
-  /// For each colour -ln of its likelihood, in 64ths; empty where too little was seen.
+  /// For each color_step -ln of its likelihood, in 64ths; empty where too little was seen.
   std::vector<std::int16_t> costs() const;
 
  private:
@@ -37,7 +45,7 @@ class SubjectColors {
 /// Corrects the silhouette's mask, by at most `kCutReach` cells, where its edge or a hole of it
 /// follows no edge of the picture, and leaves out small parts. Pre: screen.subject_cost is not
 /// empty. Cost: about a microsecond and 60 bytes a cell of the mask's box.
-void cut_out(const ScreenModel& screen, const Frame& frame, Silhouette& silhouette);
+void cut_out(const ScreenModel& screen, Silhouette& silhouette);
 inline constexpr int kCutReach = 6;
 
 /// The minimum cut of a grid of nodes with eight neighbours.
@@ -65,10 +73,10 @@ class GridCut {
     return node + static_cast<std::size_t>(step_[way]);  // wraps where the step is negative
   }
   static int opposite(int way) { return way ^ 4; }
-  /// What may still flow towards the tree's leaves over the edge from `node`.
   int& residual(std::size_t node, int way) {
     return residual_[8 * node + static_cast<unsigned>(way)];
   }
+  /// What may still flow over the edge, away from the terminal that `node` belongs to.
   int onwards(std::size_t node, int way) {
     return tree_[node] == kSource ? residual(node, way)
                                   : residual(beside(node, way), opposite(way));
@@ -79,7 +87,7 @@ class GridCut {
   void adopt();
   int origin(std::size_t node);
 
-  int width_, height_, stride_;
+  int stride_;
   std::ptrdiff_t step_[8];
   std::vector<int> residual_, terminal_;
   std::vector<std::uint8_t> tree_, active_;

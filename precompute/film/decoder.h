@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// film/decoder.h - the child process that decodes, and what it says on the socket: one Hello, then a
-// FrameHead for each frame, whose planes (Y, Cb, Cr, RGBA if it has them, no padding) lie in the
-// ring (film/ring.h), then a FrameHead of kind End. It hears a byte for each frame that it may send.
+// film/decoder.h - the child process that decodes, and what it says on the socket: one Hello, then
+// a FrameHead for each frame, whose planes (Y, Cb, Cr, RGBA if it has them, no padding) lie in the
+// ring (film/ring.h), then a FrameHead of kind End. It hears a byte for each frame that it may
+// send.
 #pragma once
 
 #include <sys/types.h>

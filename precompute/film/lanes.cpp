@@ -554,9 +554,10 @@ void project(const ProjectionRow& row, float spill, int begin, int end, int n) {
   }
 }
 
-constexpr float kBetter = 2;      // residual less that makes a colourless part sure
-constexpr float kColored = 0.3f;  // distance from grey over brightness from which a foreground is a
-constexpr float kSurely = 0.5f;   // colour, and surely is one
+constexpr float kBetter = 2;  // residual less that makes a colourless part sure
+// Distance from grey over brightness from which a foreground is coloured, and surely is.
+constexpr float kColored = 0.3f;
+constexpr float kSurely = 0.5f;
 
 void colorless(ConstPlanes frame, ConstPlanes plate, ConstPlanes noise, ConstPlanes mean,
                const float* __restrict bound, const float* __restrict residual, float most,

@@ -373,10 +373,7 @@ void measure_noise(std::span<const Frame> frames, const std::vector<Grid>& grids
       }
   }
   for (int p = 0; p < 3; ++p) screen.noise[p] = static_cast<float>(spread[p].sigma());
-  const float all =
-      std::sqrt(screen.noise[0] * screen.noise[0] +
-                2 * (screen.noise[1] * screen.noise[1] + screen.noise[2] * screen.noise[2]));
-  screen.threshold = std::clamp(8 * all, 9.0f, 24.0f);
+  screen.threshold = std::clamp(8 * screen.whole_noise(), 9.0f, 24.0f);
 }
 
 // Median of each channel over the plate.
@@ -522,35 +519,33 @@ void learn_colors(std::span<const Frame> frames, ScreenModel& screen) {
   constexpr int kLikely = 480;  // of a colour that the subject has
   detail::SubjectColors colors;
   detail::Silhouette s;
-  Mask about((screen.width + 1) / 2, (screen.height + 1) / 2);
-  std::vector<std::uint16_t> visits(about.in.size());
+  const int width = (screen.width + 1) / 2;
+  std::vector<std::uint16_t> visits(screen.cells[0].size());
   int seen = 0;
   for (const Frame& frame : frames) {
     detail::find_silhouette(screen, frame, s);
     if (s.empty) continue;
+    ++seen;
     const Mask inside = erode(s.mask, 1);
+    const Mask near = dilate(s.mask, detail::kCutReach);
     for (int y = 0; y < inside.height; ++y)
       for (int x = 0; x < inside.width; ++x) {
         const auto i = static_cast<std::size_t>(y * inside.width + x);
-        const auto cell = static_cast<std::size_t>((s.window.top + y) * about.width +
-                                                   s.window.left + x);
+        const auto cell = static_cast<std::size_t>((s.window.top + y) * width + s.window.left + x);
+        visits[cell] += near.in[i];
         if (inside.in[i] && (s.contrast[i] > 0.5f * screen.subject_contrast ||
                              screen.witness[cell] == kInvented))
           colors.add(s.grid.plane[0][i], s.grid.plane[1][i], s.grid.plane[2][i]);
       }
-    ++seen;
-    std::fill(about.in.begin(), about.in.end(), std::uint8_t{0});
-    const Mask near = dilate(s.mask, detail::kCutReach);
-    for (int y = 0; y < near.height; ++y)
-      std::copy_n(near.row(y), near.width, about.row(s.window.top + y) + s.window.left);
-    for (std::size_t i = 0; i < visits.size(); ++i) visits[i] += about.in[i];
   }
   screen.subject_cost = colors.costs();
   for (std::size_t i = 0; i < visits.size() && !screen.subject_cost.empty(); ++i) {
-    std::size_t bin = 0;
-    for (const auto& plane : screen.cells)
-      bin = 16 * bin + static_cast<std::size_t>(std::clamp(plane[i], 0.0f, 255.0f)) / 16;
-    if (4 * visits[i] > seen && screen.subject_cost[bin] < kLikely) screen.witness[i] = kOccupied;
+    const auto sum = [&](int p) {
+      return static_cast<int>(4 * std::clamp(screen.cells[p][i], 0.0f, 255.0f));
+    };
+    if (4 * visits[i] > seen &&
+        screen.subject_cost[detail::color_step(sum(0), sum(1), sum(2))] < kLikely)
+      screen.witness[i] = kOccupied;
   }
 }
 
@@ -586,16 +581,15 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
     }
     if (screen.kind == KeyKind::Plate) continue;
     const Mask deep = erode(s.mask, 4);
+    std::vector<float> away(deep.in.size());
+    if (screen.key < 0)
+      detail::lanes().distance({s.frame[0].data(), s.frame[1].data(), s.frame[2].data()},
+                               {s.plate[0].data(), s.plate[1].data(), s.plate[2].data()},
+                               away.size(), away.data());
     for (std::size_t i = 0; i < deep.in.size(); ++i) {
       if (!deep.in[i]) continue;
       if (screen.key < 0) {
-        float d = 0;  // as lanes().distance has it
-        for (int p = 0; p < 3; ++p) {
-          const float r = s.frame[p][i] - s.plate[p][i];
-          d += r * r;
-        }
-        d = std::sqrt(d);
-        ++strengths[static_cast<std::size_t>(std::min(d * kDistanceSteps, 399.0f))];
+        ++strengths[static_cast<std::size_t>(std::min(away[i] * kDistanceSteps, 399.0f))];
         ++strength_count;
         continue;
       }
@@ -648,6 +642,10 @@ void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
 }
 
 }  // namespace
+
+float ScreenModel::whole_noise() const noexcept {
+  return std::sqrt(noise[0] * noise[0] + 2 * (noise[1] * noise[1] + noise[2] * noise[2]));
+}
 
 Result<KeyConfig> parse_key(const std::string& text) {
   KeyConfig config;

@@ -35,10 +35,10 @@ struct KeyConfig {
 /// Parses `auto`, `plate`, `alpha`, `none` or `#RRGGBB`. Errors: BadSetting.
 Result<KeyConfig> parse_key(const std::string& text);
 
-/// The background, per pixel, and how much it varies. Immutable once made.
 /// Seen bare; never bare and filled in; the subject itself perhaps, which was always about there.
 enum PlateWitness : std::uint8_t { kBare, kInvented, kOccupied };
 
+/// The background, per pixel, and how much it varies. Immutable once made.
 struct ScreenModel {
   KeyKind kind = KeyKind::Color;
   std::string reason;  ///< why this kind: one sentence for the report
@@ -69,6 +69,9 @@ struct ScreenModel {
   std::vector<std::uint8_t> witness;
   int opening = 2;   ///< cells, radius that removes tail and fins from the anchor's mask
   float hidden = 0;  ///< share of the plate that was never seen bare, 0..1
+
+  /// `noise` of luma and colour together, as distances weigh them.
+  float whole_noise() const noexcept;
 };
 
 /// Measures the screen. `frames`: 8 or more, spread over the film. Errors: BadContent (no steady

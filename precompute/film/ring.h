@@ -11,11 +11,11 @@
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 namespace vsprite::detail {
 
@@ -29,15 +29,16 @@ class Ring {
   }
 
   /// Gives the memory `fd` its size, for frames of `width` x `height` px, which nobody can change
-  /// from then on. Both false: errno tells.
-  static bool size(int fd, int width, int height) {
-    Ring ring;
-    ring.lay_out(width, height);
+  /// from then on, and maps it. False: errno tells.
+  bool make(int fd, int width, int height) {
+    lay_out(width, height);
     struct stat is {};
-    return ftruncate(fd, static_cast<off_t>(ring.bytes())) == 0 &&
+    return ftruncate(fd, static_cast<off_t>(bytes())) == 0 &&
            fcntl(fd, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) == 0 &&
-           fstat(fd, &is) == 0 && static_cast<std::size_t>(is.st_size) == ring.bytes();
+           fstat(fd, &is) == 0 && static_cast<std::size_t>(is.st_size) == bytes() &&
+           map(fd, width, height);
   }
+  /// Maps what was made. False: errno tells.
   bool map(int fd, int width, int height) {
     lay_out(width, height);
     void* at = mmap(nullptr, bytes(), PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);

@@ -368,7 +368,7 @@ void find_silhouette(const ScreenModel& screen, const Frame& frame, Silhouette& 
   lanes().above(s.contrast.data(), screen.threshold, n, s.mask.in.data());
   if (screen.key < 0) drop_faint(screen, s);
   s.mask = reshape(s.mask, {-1, 1, 2, -2});
-  if (!screen.subject_cost.empty()) cut_out(screen, frame, s);
+  if (!screen.subject_cost.empty()) cut_out(screen, s);
   if (!find_box(s.mask, s.box)) return;
   s.box.left += s.window.left;
   s.box.top += s.window.top;

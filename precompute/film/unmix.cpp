@@ -415,7 +415,7 @@ void allow_colorless(Patch& patch) {
                       share.data() + at);
     lanes().above(share.data() + at, 0, count, wide.in.data() + at);
   });
-  wide = dilate(erode(wide, kWide), kWide);
+  wide = reshape(wide, {-kWide, kWide});
   for (std::size_t i = 0; i < wide.in.size(); ++i)
     if (wide.in[i]) {
       patch.alpha[i] += share[i] * (alpha[i] - patch.alpha[i]);

@@ -92,7 +92,7 @@ struct OwnedFd {
 struct FilmReader::Impl {
   std::string path;
   FilmInfo info;
-  int fd = -1;               // the socket to the child
+  int fd = -1;  // the socket to the child
   detail::Ring ring{};
   pid_t child = -1;
   int next = 0;              // index of the frame to come
@@ -128,7 +128,8 @@ struct FilmReader::Impl {
     return status;
   }
 
-  // Waits for the child's own end (the socket is closed, so it is near), for the reason of its death.
+  // Waits for the child's own end (it closed the socket, so it is near), for the reason of its
+  // death.
   int reap() {
     int status = 0;
     for (int tries = 0; tries < 500; ++tries) {
@@ -254,8 +255,7 @@ Result<void> FilmReader::Impl::start(const FilmSource& source, const Selection& 
                                                " x " + std::to_string(hello.height) +
                                                " px; due: at most " + std::to_string(kMaxSide) +
                                                " px a side"};
-  if (!detail::Ring::size(memory.fd, hello.width, hello.height) ||
-      !ring.map(memory.fd, hello.width, hello.height))
+  if (!ring.make(memory.fd, hello.width, hello.height))
     return Error{ErrorCode::OutOfMemory, path + ": frames of " + std::to_string(hello.width) +
                                              " x " + std::to_string(hello.height) +
                                              " px: no memory for them: " + std::strerror(errno)};

@@ -8,9 +8,10 @@
 //
 // libavformat and libavcodec are called directly: OpenCV's VideoCapture hands out BGR only, and
 // neither time stamps, nor rotation, colour tags, field order or the size of single frames can be
-// reached through it. They run in a forked child with limits; frames arrive in shared memory. A decoder
-// that crashes or hangs is this film's error, not ours. The container's frame count is a claim that
-// is compared with what arrived, never trusted. Open films before other threads are started.
+// reached through it. They run in a forked child with limits; frames arrive in shared memory. A
+// decoder that crashes or hangs is this film's error, not ours. The container's frame count is a
+// claim that is compared with what arrived, never trusted. Open films before other threads are
+// started.
 #pragma once
 
 #include <cstdint>

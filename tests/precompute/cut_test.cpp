@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "film/matte.h"
+#include "support/keyed_alpha.h"
 #include "support/synthetic_film.h"
 
 namespace vsprite {
 namespace {
 
 using detail::GridCut;
+using testing::alpha_of;
 using testing::SyntheticFilm;
 
 struct Random {
@@ -109,12 +111,6 @@ Frame oval_frame(int index, const Oval& oval) {
   return to_frame(image, index);
 }
 
-int alpha_at(const KeyedFrame& keyed, int x, int y) {
-  const int u = x - keyed.crop.x, v = y - keyed.crop.y;
-  if (u < 0 || v < 0 || u >= keyed.crop.width || v >= keyed.crop.height) return 0;
-  return keyed.straight.rgba[static_cast<std::size_t>(4 * (v * keyed.crop.width + u) + 3)];
-}
-
 class BeforeItsOwnColor : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -142,7 +138,7 @@ TEST_F(BeforeItsOwnColor, ThereIsNoHole) {
       if (!on_patch(left, top) || !inside) continue;
       ++patches;
       for (int y = top; y < top + 20; ++y)
-        for (int x = left; x < left + 20; ++x) least = std::min(least, alpha_at(keyed, x, y));
+        for (int x = left; x < left + 20; ++x) least = std::min(least, alpha_of(keyed, x, y));
     }
   EXPECT_GT(patches, 0);
   EXPECT_EQ(least, 255);
@@ -150,7 +146,7 @@ TEST_F(BeforeItsOwnColor, ThereIsNoHole) {
 
 TEST_F(BeforeItsOwnColor, ATrueGapStays) {
   for (int y = 94; y < 102; ++y)
-    for (int x = 146; x < 154; ++x) EXPECT_LT(alpha_at(keyed, x, y), 26) << x << ' ' << y;
+    for (int x = 146; x < 154; ++x) EXPECT_LT(alpha_of(keyed, x, y), 26) << x << ' ' << y;
 }
 
 TEST_F(BeforeItsOwnColor, ABroadShadowIsNoneOfIt) {
@@ -160,7 +156,7 @@ TEST_F(BeforeItsOwnColor, ABroadShadowIsNoneOfIt) {
       const bool near = std::hypot((x + 0.5 - oval.x) / 50, (y + 0.5 - oval.y) / 40) < 1.15;
       if (near || !oval.shades(x + 0.5, y + 0.5)) continue;
       ++all;
-      taken += alpha_at(keyed, x, y) > 25 ? 1 : 0;
+      taken += alpha_of(keyed, x, y) > 25 ? 1 : 0;
     }
   EXPECT_GT(all, 800);
   EXPECT_LE(50 * taken, all);

@@ -6,11 +6,13 @@
 
 #include <thread>
 
+#include "support/keyed_alpha.h"
 #include "support/synthetic_film.h"
 
 namespace vsprite {
 namespace {
 
+using testing::alpha_of;
 using testing::Disc;
 using testing::SyntheticFilm;
 
@@ -33,13 +35,6 @@ struct Scene {
 const Scene& scene() {
   static const Scene made;
   return made;
-}
-
-int alpha_of(const KeyedFrame& keyed, int x, int y) {
-  x -= keyed.crop.x;
-  y -= keyed.crop.y;
-  if (x < 0 || y < 0 || x >= keyed.crop.width || y >= keyed.crop.height) return 0;
-  return keyed.straight.rgba[static_cast<std::size_t>(4 * (y * keyed.crop.width + x) + 3)];
 }
 
 TEST(Matte, IsNearTheKnownMatte) {
@@ -190,6 +185,18 @@ TEST(Matte, BorderContactIsSeen) {
   EXPECT_TRUE(keyed.blobs[0].touches_border);
 }
 
+// Lays a wing of a grey of this linear light over what is behind a body, in a rectangle.
+void lay_wing(const SyntheticFilm& film, const Disc& body, const Rect& wing, double light,
+              double cover, Image& image) {
+  for (int v = wing.y; v < wing.y + wing.height; ++v)
+    for (int u = wing.x; u < wing.x + wing.width; ++u)
+      for (int c = 0; c < 3 && film.alpha(body, u, v) <= 0; ++c) {
+        std::uint8_t& p = image.rgba[static_cast<std::size_t>(4 * (v * film.width + u) + c)];
+        p = static_cast<std::uint8_t>(
+            SyntheticFilm::code(cover * light + (1 - cover) * SyntheticFilm::linear(p)) + 0.5);
+      }
+}
+
 // An orange body before a green screen with a clear, colourless wing above it: 36 px wide, 30 high,
 // its lower edge in the body.
 Frame with_a_wing(int index, double x, double cover) {
@@ -197,13 +204,7 @@ Frame with_a_wing(int index, double x, double cover) {
   film.screen[0] = 70, film.screen[1] = 140, film.screen[2] = 75;
   const Disc body{x, 150, 40, 22};
   Image made = film.image(index, {body});
-  for (int v = 105; v < 135; ++v)
-    for (int u = static_cast<int>(x) - 18; u < static_cast<int>(x) + 18; ++u)
-      for (int c = 0; c < 3 && film.alpha(body, u, v) <= 0; ++c) {
-        std::uint8_t& p = made.rgba[static_cast<std::size_t>(4 * (v * film.width + u) + c)];
-        p = static_cast<std::uint8_t>(
-            SyntheticFilm::code(cover * 0.45 + (1 - cover) * SyntheticFilm::linear(p)) + 0.5);
-      }
+  lay_wing(film, body, {static_cast<int>(x) - 18, 105, 36, 30}, 0.45, cover, made);
   return to_frame(made, index);
 }
 
@@ -231,14 +232,8 @@ Frame with_a_pale_wing(int index, double x, double cover) {
   for (int c = 0; c < 3; ++c) film.screen[c] = 12, film.subject[c] = 205;
   const Disc body{x, 170, 44, 26};
   Image made = film.image(index, {body});
-  for (int v = 80; v < 155; ++v)
-    for (int u = static_cast<int>(x) - 35; u < static_cast<int>(x) + 35; ++u)
-      for (int c = 0; c < 3 && film.alpha(body, u, v) <= 0; ++c) {
-        std::uint8_t& p = made.rgba[static_cast<std::size_t>(4 * (v * film.width + u) + c)];
-        p = static_cast<std::uint8_t>(SyntheticFilm::code(cover * SyntheticFilm::linear(205) +
-                                                          (1 - cover) * SyntheticFilm::linear(p)) +
-                                      0.5);
-      }
+  lay_wing(film, body, {static_cast<int>(x) - 35, 80, 70, 75}, SyntheticFilm::linear(205), cover,
+           made);
   return to_frame(made, index);
 }
 
