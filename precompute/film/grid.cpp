@@ -92,8 +92,14 @@ void widen_row(const std::uint64_t* in, std::size_t words, std::uint64_t* out) {
   }
 }
 
-void add_rows(const std::uint64_t* in, std::size_t words, std::uint64_t* out) {
-  for (std::size_t k = 0; k < words; ++k) out[k] |= in[k];
+// Each cell of `next` with those of `in` that lie `steps` rows above and below.
+void add_rows(Bits& bits, int steps) {
+  const std::size_t apart = static_cast<std::size_t>(std::min(steps, bits.height)) * bits.words;
+  const std::size_t all = static_cast<std::size_t>(bits.height) * bits.words;
+  const std::uint64_t* in = bits.in.data();
+  std::uint64_t* out = bits.next.data();
+  for (std::size_t k = apart; k < all; ++k) out[k] |= in[k - apart];
+  for (std::size_t k = apart; k < all; ++k) out[k - apart] |= in[k];
 }
 
 // Squares of 2 radius + 1.
@@ -105,20 +111,15 @@ void grow_square(Bits& bits, int radius) {
   }
   if (radius == 0) return;
   bits.next = bits.in;
-  for (int y = 0; y < bits.height; ++y)
-    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, bits.height - 1); ++v)
-      if (v != y) add_rows(bits.row(bits.in, v), bits.words, bits.row(bits.next, y));
+  for (int k = 1; k <= radius; ++k) add_rows(bits, k);
   std::swap(bits.in, bits.next);
 }
 
 // One step to the four neighbours.
 void grow_cross(Bits& bits) {
-  for (int y = 0; y < bits.height; ++y) {
-    std::uint64_t* out = bits.row(bits.next, y);
-    widen_row(bits.row(bits.in, y), bits.words, out);
-    if (y > 0) add_rows(bits.row(bits.in, y - 1), bits.words, out);
-    if (y + 1 < bits.height) add_rows(bits.row(bits.in, y + 1), bits.words, out);
-  }
+  for (int y = 0; y < bits.height; ++y)
+    widen_row(bits.row(bits.in, y), bits.words, bits.row(bits.next, y));
+  add_rows(bits, 1);
   std::swap(bits.in, bits.next);
 }
 
@@ -250,11 +251,10 @@ int root_of(std::vector<int>& parent, int part) {
   return part;
 }
 
-// Runs of a row; those that touch a run of the row above, corners too, are of its part.
-void join_row(const std::uint8_t* in, int width, const std::vector<Run>& above,
+// Adds the runs of a row; those that touch one of the row above, `first` to `last` of the runs,
+// corners too, are of its part.
+void join_row(const std::uint8_t* in, int width, std::size_t first, std::size_t last,
               std::vector<Run>& runs, std::vector<int>& parent) {
-  runs.clear();
-  std::size_t first = 0;
   for (int x = 0; x < width;) {
     const auto left = static_cast<std::size_t>(width - x);
     const void* found = std::memchr(in + x, 1, left);
@@ -263,9 +263,9 @@ void join_row(const std::uint8_t* in, int width, const std::vector<Run>& above,
     const void* out = std::memchr(in + begin, 0, static_cast<std::size_t>(width - begin));
     const int end = out ? static_cast<int>(static_cast<const std::uint8_t*>(out) - in) : width;
     int part = -1;
-    while (first < above.size() && above[first].end < begin) ++first;
-    for (std::size_t k = first; k < above.size() && above[k].begin <= end; ++k) {
-      const int other = root_of(parent, above[k].part);
+    while (first < last && runs[first].end < begin) ++first;
+    for (std::size_t k = first; k < last && runs[k].begin <= end; ++k) {
+      const int other = root_of(parent, runs[k].part);
       if (part < 0) {
         part = other;
       } else if (other != part) {
@@ -287,11 +287,13 @@ void join_row(const std::uint8_t* in, int width, const std::vector<Run>& above,
 int connected_parts(const Mask& mask, std::vector<int>& labels) {
   labels.assign(mask.in.size(), 0);
   std::vector<int> parent{0};
-  std::vector<std::vector<Run>> rows(static_cast<std::size_t>(mask.height));
-  const std::vector<Run> none;
+  std::vector<Run> runs;
+  std::vector<std::size_t> ends;  // of each row's runs
   for (int y = 0; y < mask.height; ++y) {
-    const auto row = static_cast<std::size_t>(y);
-    join_row(mask.row(y), mask.width, y > 0 ? rows[row - 1] : none, rows[row], parent);
+    const std::size_t last = runs.size();
+    join_row(mask.row(y), mask.width, y > 1 ? ends[static_cast<std::size_t>(y) - 2] : 0, last, runs,
+             parent);
+    ends.push_back(runs.size());
   }
   std::vector<int> number(parent.size());
   int count = 0;
@@ -299,10 +301,12 @@ int connected_parts(const Mask& mask, std::vector<int>& labels) {
     number[part] = parent[part] == static_cast<int>(part)
                        ? ++count
                        : number[static_cast<std::size_t>(root_of(parent, static_cast<int>(part)))];
-  for (std::size_t y = 0; y < rows.size(); ++y)
-    for (const Run& run : rows[y]) {
+  std::size_t k = 0;
+  for (std::size_t y = 0; y < ends.size(); ++y)
+    for (; k < ends[y]; ++k) {
       int* row = labels.data() + y * static_cast<std::size_t>(mask.width);
-      std::fill(row + run.begin, row + run.end, number[static_cast<std::size_t>(run.part)]);
+      std::fill(row + runs[k].begin, row + runs[k].end,
+                number[static_cast<std::size_t>(runs[k].part)]);
     }
   return count;
 }
