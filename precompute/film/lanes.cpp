@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "film/lanes.cpp"
@@ -310,18 +311,26 @@ void gain(const RowsAround& a, const RowsAround& g, int width, int begin, int en
 
 void gamut_bound(ConstPlanes frame, ConstPlanes plate, ConstPlanes noise, std::size_t n,
                  float* __restrict bound) {
-  for (std::size_t i = 0; i < n; ++i) bound[i] = 0;
-  for (int p = 0; p < 3; ++p) {
-    const float* __restrict c = frame[p];
-    const float* __restrict b = plate[p];
-    const float* __restrict s = noise[p];
-    for (std::size_t i = 0; i < n; ++i) {
-      const float d = c[i] - b[i];
-      const float sure = magnitude(d) - 2 * s[i];
-      const float room = d > 0 ? 1 - b[i] : b[i];
-      const float q = larger_of(sure, 0) / larger_of(room, 1e-4f);
-      bound[i] = smaller(larger_of(bound[i], q), 1);
-    }
+  const float* __restrict c0 = frame[0];
+  const float* __restrict c1 = frame[1];
+  const float* __restrict c2 = frame[2];
+  const float* __restrict b0 = plate[0];
+  const float* __restrict b1 = plate[1];
+  const float* __restrict b2 = plate[2];
+  const float* __restrict s0 = noise[0];
+  const float* __restrict s1 = noise[1];
+  const float* __restrict s2 = noise[2];
+  const auto least = [](float c, float b, float s) {
+    const float d = c - b;
+    const float sure = magnitude(d) - 2 * s;
+    const float room = d > 0 ? 1 - b : b;
+    return larger_of(sure, 0) / larger_of(room, 1e-4f);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const float r = least(c0[i], b0[i], s0[i]);
+    const float g = least(c1[i], b1[i], s1[i]);
+    const float b = least(c2[i], b2[i], s2[i]);
+    bound[i] = smaller(larger_of(larger_of(r, g), b), 1);
   }
 }
 
@@ -394,27 +403,30 @@ void moments(const float* top_weight, const float* low_weight, ConstPlanes top, 
   for (int first = 0; first < n; first += kRun) {
     const int count = std::min(kRun, n - first);
     const auto add = [&](const float* __restrict weight, const float* __restrict r,
-                         const float* __restrict g, const float* __restrict b, float keep) {
+                         const float* __restrict g, const float* __restrict b, auto more) {
+      const auto into = [more](float& to, float v) { to = more ? to + v : v; };
       for (int i = 0; i < count; ++i) {
         const float w = 0.25f * weight[i];
         const float wr = w * r[i];
         const float wg = w * g[i];
         const float wb = w * b[i];
-        sum[0][i] = keep * sum[0][i] + w;
-        sum[1][i] = keep * sum[1][i] + wr;
-        sum[2][i] = keep * sum[2][i] + wg;
-        sum[3][i] = keep * sum[3][i] + wb;
-        sum[4][i] = keep * sum[4][i] + wr * r[i];
-        sum[5][i] = keep * sum[5][i] + wr * g[i];
-        sum[6][i] = keep * sum[6][i] + wr * b[i];
-        sum[7][i] = keep * sum[7][i] + wg * g[i];
-        sum[8][i] = keep * sum[8][i] + wg * b[i];
-        sum[9][i] = keep * sum[9][i] + wb * b[i];
+        into(sum[0][i], w);
+        into(sum[1][i], wr);
+        into(sum[2][i], wg);
+        into(sum[3][i], wb);
+        into(sum[4][i], wr * r[i]);
+        into(sum[5][i], wr * g[i]);
+        into(sum[6][i], wr * b[i]);
+        into(sum[7][i], wg * g[i]);
+        into(sum[8][i], wg * b[i]);
+        into(sum[9][i], wb * b[i]);
       }
     };
-    for (auto& row : sum) std::fill(row, row + kRun, 0.0f);
-    add(top_weight + first, top[0] + first, top[1] + first, top[2] + first, 0);
-    if (low_weight) add(low_weight + first, low[0] + first, low[1] + first, low[2] + first, 1);
+    add(top_weight + first, top[0] + first, top[1] + first, top[2] + first, std::false_type{});
+    if (low_weight)
+      add(low_weight + first, low[0] + first, low[1] + first, low[2] + first, std::true_type{});
+    if (count % 2)
+      for (auto& row : sum) row[count] = 0;
     for (int k = 0; k < kMoments; ++k) {
       float* __restrict o = out[k] + first / 2;
       for (int i = 0; i < (count + 1) / 2; ++i) o[i] = sum[k][2 * i] + sum[k][2 * i + 1];
@@ -427,7 +439,27 @@ void double_row(const float* __restrict first, float a, const float* __restrict 
   const auto mixed = [=](int i) { return a * first[i] + b * second[i]; };
   out[0] = mixed(0);
   out[2 * n - 1] = mixed(n - 1);
-  for (int i = 0; i + 1 < n; ++i) {
+  int i = 0;
+#if HWY_TARGET != HWY_SCALAR
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<float, 16> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  const auto set = [d](float v) { return hn::Set(d, v); };
+  const auto mix = [&](int at) {
+    return hn::Add(hn::Mul(set(a), hn::LoadU(d, first + at)),
+                   hn::Mul(set(b), hn::LoadU(d, second + at)));
+  };
+  if (n > step)
+    for (; i + 1 < n; i += step) {
+      const int at = std::min(i, n - 1 - step);  // the last ones with some of those before
+      const auto left = mix(at);
+      const auto right = mix(at + 1);
+      hn::StoreInterleaved2(hn::Add(hn::Mul(set(0.75f), left), hn::Mul(set(0.25f), right)),
+                            hn::Add(hn::Mul(set(0.25f), left), hn::Mul(set(0.75f), right)), d,
+                            out + 2 * at + 1);
+    }
+#endif
+  for (; i + 1 < n; ++i) {
     const float left = mixed(i);
     const float right = mixed(i + 1);
     out[2 * i + 1] = 0.75f * left + 0.25f * right;
@@ -508,16 +540,17 @@ void project_block(const ProjectionRow& row, float spill, int at) {
     const float left[3] = {d[0] - a * f[0], d[1] - a * f[1], d[2] - a * f[2]};
     residual[k] = wide.determinant > 0 ? product(wide, left, left) / wide.determinant : 0.0f;
   }
-  for (int k = 0; k < kBlock; ++k) {
-    const int i = at + k;
-    const std::uint8_t mode = row.mode[i];
-    row.mean[0][i] = mode ? mean_r[k] : row.mean[0][i];
-    row.mean[1][i] = mode ? mean_g[k] : row.mean[1][i];
-    row.mean[2][i] = mode ? mean_b[k] : row.mean[2][i];
-    if constexpr (kAlpha) {
-      row.alpha[i] = mode == 2 ? alpha[k] : row.alpha[i];
-      if (row.residual) row.residual[i] = mode == 2 ? residual[k] : row.residual[i];
-    }
+  int kind[kBlock];
+  for (int k = 0; k < kBlock; ++k) kind[k] = row.mode[at + k];
+  const auto put = [&kind](const float* __restrict made, int least, float* __restrict out) {
+    for (int k = 0; k < kBlock; ++k) out[k] = kind[k] >= least ? made[k] : out[k];
+  };
+  put(mean_r, 1, row.mean[0] + at);
+  put(mean_g, 1, row.mean[1] + at);
+  put(mean_b, 1, row.mean[2] + at);
+  if constexpr (kAlpha) {
+    put(alpha, 2, row.alpha + at);
+    if (row.residual) put(residual, 2, row.residual + at);
   }
 }
 
@@ -625,6 +658,21 @@ void detail(const std::uint8_t* __restrict y, const float* __restrict light,
   }
 }
 
+void luma_drift(const float* __restrict slope, const RowTerms (&drift)[3],
+                const float (&weights)[3], int first, double step, int n, float* __restrict out) {
+  const RowTerms red = drift[0], green = drift[1], blue = drift[2];
+  const float wr = weights[0], wg = weights[1], wb = weights[2];
+  for (int i = 0; i < n; ++i) {
+    const float u = static_cast<float>(step * (first + i) - 1);
+    const float r = red.a + u * (red.b + u * red.c);
+    const float g = green.a + u * (green.b + u * green.c);
+    const float b = blue.a + u * (blue.b + u * blue.c);
+    const float both = slope[i] * (wr * r + wg * g + wb * b);
+    out[2 * i] = both;
+    out[2 * i + 1] = both;
+  }
+}
+
 void halve(const float* __restrict top, const float* __restrict low, int n, float* __restrict out) {
   for (int i = 0; i < n; ++i)
     out[i] = 0.25f * (top[2 * i] + top[2 * i + 1] + low[2 * i] + low[2 * i + 1]);
@@ -658,10 +706,13 @@ void raise_alpha(const AlphaRow& row, int n, std::uint8_t* __restrict out) {
 }
 
 void settle(const std::uint8_t* __restrict inner, int n, std::uint8_t* __restrict alpha) {
-  for (int i = 0; i < 2 * n; ++i) {
-    const int kind = inner[i / 2];
-    const int as_is = alpha[i];
-    alpha[i] = static_cast<std::uint8_t>(kind == 0 ? as_is : (kind & 1 ? 255 : 0));
+  for (int i = 0; i < n; ++i) {
+    const int keep = inner[i] == 0 ? 255 : 0;
+    const int set = inner[i] == 1 ? 255 : 0;
+    const int left = (alpha[2 * i] & keep) | set;
+    const int right = (alpha[2 * i + 1] & keep) | set;
+    alpha[2 * i] = static_cast<std::uint8_t>(left);
+    alpha[2 * i + 1] = static_cast<std::uint8_t>(right);
   }
 }
 
@@ -728,15 +779,24 @@ void paint_filmed(const RgbOfYcc& m, const std::uint8_t* __restrict y,
                   const std::uint8_t* __restrict cb, const std::uint8_t* __restrict cr, int n,
                   std::uint8_t* __restrict rgba) {
   const int offset = 32768 - m.luma * m.black;
-  for (int i = 0; i < n; ++i) {
+  const auto paint = [&](int i, int red, int green, int blue) {
     const int base = m.luma * y[i] + offset;
-    const int u = cb[i / 2] - 128;
-    const int v = cr[i / 2] - 128;
-    const int r = std::min(std::max((base + m.red_of_cr * v) >> 16, 0), 255);
-    const int g = std::min(std::max((base + m.green_of_cb * u + m.green_of_cr * v) >> 16, 0), 255);
-    const int b = std::min(std::max((base + m.blue_of_cb * u) >> 16, 0), 255);
+    const int r = std::min(std::max((base + red) >> 16, 0), 255);
+    const int g = std::min(std::max((base + green) >> 16, 0), 255);
+    const int b = std::min(std::max((base + blue) >> 16, 0), 255);
     store_rgba(r, g, b, 255, rgba + 4 * i);
-  }
+  };
+  const auto paint_cell = [&](int i, bool both) {
+    const int u = cb[i] - 128;
+    const int v = cr[i] - 128;
+    const int red = m.red_of_cr * v;
+    const int green = m.green_of_cb * u + m.green_of_cr * v;
+    const int blue = m.blue_of_cb * u;
+    paint(2 * i, red, green, blue);
+    if (both) paint(2 * i + 1, red, green, blue);
+  };
+  for (int i = 0; i < n / 2; ++i) paint_cell(i, true);
+  if (n % 2) paint_cell(n / 2, false);
 }
 
 // Brightness of the pixel itself, trusted as far as it is covered: what its luma is above that of
@@ -803,13 +863,13 @@ std::uint32_t difference(const std::uint8_t* __restrict a, const std::uint8_t* _
 
 const Lanes* get_lanes() {
   static constexpr Lanes kLanes = {
-      count_different, sum_cells,   contrast,        look_up,      shift,      forgive_shadows,
-      above,           spread_into, pack_bits,       unpack_bits,  sum5,       sum3,
-      add_far,         blur3,       gamut_bound,     key_share,    distance,   score,
-      moments,         double_row,  project,         modes,        set_sure,   colorless,
-      weigh_rim,       detail,      halve,           gain,         mark_inner, raise_alpha,
-      settle,          own_color,   encode_weighted, paint_filmed, paint_own,  cover,
-      name_pixels,     difference};
+      count_different, sum_cells,   contrast,    look_up,         shift,        forgive_shadows,
+      above,           spread_into, pack_bits,   unpack_bits,     sum5,         sum3,
+      add_far,         blur3,       gamut_bound, key_share,       distance,     score,
+      moments,         double_row,  project,     modes,           set_sure,     colorless,
+      weigh_rim,       luma_drift,  detail,      halve,           gain,         mark_inner,
+      raise_alpha,     settle,      own_color,   encode_weighted, paint_filmed, paint_own,
+      cover,           name_pixels, difference};
   return &kLanes;
 }
 

@@ -156,6 +156,10 @@ struct Lanes {
   void (*weigh_rim)(const std::uint8_t* seeds, const float* soft, const float* alpha,
                     ConstPlanes frame, ConstPlanes plate, std::size_t n, float* weight,
                     Planes color);
+  /// The drift of linear luma for the two pixels of each of n cells, from cell `first` of a row on:
+  /// slope of the transfer times the code's drift, at u = step cell - 1.
+  void (*luma_drift)(const float* slope, const RowTerms (&drift)[3], const float (&weights)[3],
+                     int first, double step, int n, float* out);
   /// Linear luma of n pixels less the plate's and the drift, linear too.
   void (*detail)(const std::uint8_t* y, const float* light, const std::uint16_t* plate,
                  const float* drift, int n, float* out, float* out_plate);

@@ -98,21 +98,16 @@ void Keyer::Impl::measure_detail(const Frame& frame) {
   const int w = frame.cell_width();
   const double step = w > 1 ? 2.0 / (w - 1) : 0.0;
   for (const auto& [cell_row, span] : patch.rim) {
-    // The drift of luma in linear light: slope of the transfer times the drift of the code.
     const double v = detail::scaled(patch.top + cell_row, frame.cell_height());
-    const auto red = detail::row_of(silhouette.drift, 0, v);
-    const auto green = detail::row_of(silhouette.drift, 1, v);
-    const auto blue = detail::row_of(silhouette.drift, 2, v);
     const std::size_t from =
         static_cast<std::size_t>(patch.top + cell_row) * static_cast<std::size_t>(w) +
-        static_cast<std::size_t>(patch.left);
-    for (int x = span.begin; x < span.end; ++x) {
-      const float u = static_cast<float>(step * (patch.left + x) - 1);
-      const auto at = [u](detail::RowTerms t) { return t.a + u * (t.b + u * t.c); };
-      drift[2 * static_cast<std::size_t>(x)] = drift[2 * static_cast<std::size_t>(x) + 1] =
-          screen->slope[1][from + static_cast<std::size_t>(x)] *
-          (weights.red * at(red) + weights.green * at(green) + weights.blue * at(blue));
-    }
+        static_cast<std::size_t>(patch.left + span.begin);
+    lanes().luma_drift(
+        screen->slope[1].data() + from,
+        {detail::row_of(silhouette.drift, 0, v), detail::row_of(silhouette.drift, 1, v),
+         detail::row_of(silhouette.drift, 2, v)},
+        {weights.red, weights.green, weights.blue}, patch.left + span.begin, step, span.size(),
+        drift.data() + 2 * span.begin);
     const auto skipped = static_cast<std::size_t>(span.begin);
     for (int y = 2 * cell_row; y < std::min(2 * cell_row + 2, height); ++y) {
       const std::size_t pixel =
@@ -277,7 +272,9 @@ void Keyer::Impl::measure_own_color() {
   const detail::KeyShape shape = detail::shape_of(screen->key);
   for (const auto& [y, span] : patch.rim) {
     const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * patch.width + span.begin;
-    const auto count = static_cast<std::size_t>(span.size());
+    // Whole blocks of lanes, as far as there is room; the next run is made over what is more.
+    const auto count =
+        static_cast<std::size_t>(std::min((span.size() + 7) / 8 * 8, patch.width - span.begin));
     const float* c[3] = {frame[0] + at, frame[1] + at, frame[2] + at};
     const float* b[3] = {back[0] + at, back[1] + at, back[2] + at};
     const float* m[3] = {mean[0] + at, mean[1] + at, mean[2] + at};
@@ -483,8 +480,10 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
     const std::uint8_t* inside = patch.deep.row(cy);
     const int* label = labels.data() + static_cast<std::ptrdiff_t>(cy) * patch.width;
     // Cells from the first to the last that is covered; runs of deep ones are copied.
-    int first = 0;
-    int last = patch.width;
+    const Span within =
+        measured.empty() ? patch.spans[static_cast<std::size_t>(cy)] : Span{0, patch.width};
+    int first = within.begin;
+    int last = within.end;
     while (first < last && !label[first]) ++first;
     while (last > first && !label[last - 1]) --last;
     const std::size_t at = static_cast<std::size_t>(y) * stride;
@@ -496,10 +495,13 @@ void Keyer::Impl::paint(const Frame& frame, const std::vector<int>& labels, Keye
         static_cast<std::size_t>(patch.left);
     for (int begin = first; begin < last;) {
       const bool as_filmed = inside[begin] != 0;
-      int end = begin + 1;
-      while (end < last && (inside[end] != 0) == as_filmed) ++end;
+      const void* other =
+          std::memchr(inside + begin, as_filmed ? 0 : 1, static_cast<std::size_t>(last - begin));
+      const int end =
+          other ? static_cast<int>(static_cast<const std::uint8_t*>(other) - inside) : last;
       const int from = 2 * begin;
-      const int pixels = std::min(2 * end, width) - from;
+      // Whole blocks of lanes, as far as there is room; the next run is painted over what is more.
+      const int pixels = std::min((2 * (end - begin) + 31) / 32 * 32, width - from);
       std::uint8_t* out = painted.data() + 4 * from;
       if (as_filmed) {
         lanes().paint_filmed(matrix, frame.y.data() + film + from, frame.cb.data() + color + begin,

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "film/light.h"
 
@@ -202,7 +204,10 @@ void clear_gaps(const MomentRows& rows, float* row) {
 // Sums over 5 x 5, three times.
 void blur_wide(const MomentRows& rows, std::vector<float>& plane, std::vector<float>& scratch) {
   constexpr float kFifth = 1.0f / 5;
-  scratch.assign(rows.size() + 4 * rows.all(), 0.0f);  // two rows of zeros on both sides
+  scratch.resize(rows.size() + 4 * rows.all());  // two rows of zeros on both sides
+  std::fill_n(scratch.begin(), rows.at(2), 0.0f);
+  std::fill(scratch.begin() + static_cast<std::ptrdiff_t>(rows.at(rows.height + 2)), scratch.end(),
+            0.0f);
   for (int pass = 0; pass < 3; ++pass) {
     for (int y = 0; y < rows.height; ++y) {
       float* out = scratch.data() + rows.at(y + 2);
@@ -334,14 +339,25 @@ void gather_moments(Patch& patch, const std::vector<float>& weight,
 template <class With>
 void each_run(const std::uint8_t* in, Span span, With with) {
   constexpr int kApart = 32;
+  const auto nothing = [&](int x) {  // in eight cells, within the span
+    std::uint64_t word;
+    std::memcpy(&word, in + x, sizeof word);
+    return word == 0;
+  };
   for (int x = span.begin; x < span.end;) {
     if (!in[x]) {
-      ++x;
+      x += x + 8 <= span.end && nothing(x) ? 8 : 1;
       continue;
     }
     int end = x + 1;
-    for (int next = end; next < span.end && next - end < kApart; ++next)
+    for (int next = end; next < span.end && next - end < kApart;) {
+      if (next + 8 <= span.end && nothing(next)) {
+        next += 8;
+        continue;
+      }
       if (in[next]) end = next + 1;
+      ++next;
+    }
     with(x, end);
     x = end;
   }
@@ -353,6 +369,7 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
   const MomentRows near = near_rows(patch);
   const auto width = static_cast<std::size_t>(patch.width);
   patch.mode.assign(width + 2 * kRoom, 0);
+  patch.open.clear();
   // Room for a block of lanes behind the last cell.
   const std::size_t stride = 2 * near.stride + kRoom;
   patch.rows.resize(kMoments * stride);
@@ -365,7 +382,10 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
     const std::size_t at = static_cast<std::size_t>(y) * width;
     float* alpha = patch.alpha.data() + at;
     std::fill_n(patch.residual.data() + at + span.begin, span.size(), 0.0f);
-    std::fill(patch.mode.begin(), patch.mode.end(), std::uint8_t{0});
+    // Blocks of lanes reach over the span's ends.
+    const int before = std::min(span.begin, static_cast<int>(kRoom));
+    std::fill_n(patch.mode.begin() + span.begin - before, before, std::uint8_t{0});
+    std::fill_n(patch.mode.begin() + span.end, kRoom, std::uint8_t{0});
     const auto skipped = static_cast<std::size_t>(span.begin);
     if (!run.modes(patch.seeds.row(y) + skipped, patch.region.row(y) + skipped,
                    means ? means->row(y) + skipped : nullptr, static_cast<std::size_t>(span.size()),
@@ -392,6 +412,7 @@ void solve_alpha(Patch& patch, float spill, const Mask* means) {
                        second_row + k * near.stride + from, 0.25f, count,
                        patch.rows.data() + k * stride + 2 * from);
       run.project(row, spill, begin, end, patch.width);
+      patch.open.push_back({y, {begin, end}});
     });
   }
 }
@@ -405,22 +426,32 @@ void allow_colorless(Patch& patch) {
   std::vector<float>& share = patch.soft;
   share.resize(patch.cells() + kRoom);
   Mask wide(patch.width, patch.height);
-  each_span(patch, [&](std::size_t at, std::size_t count) {
+  const Lanes& run = lanes();
+  const auto first_of = [&](const RowSpan& row) {
+    return static_cast<std::size_t>(row.y) * static_cast<std::size_t>(patch.width) +
+           static_cast<std::size_t>(row.span.begin);
+  };
+  for (const RowSpan& row : patch.open) {
+    const std::size_t at = first_of(row);
+    const auto count = static_cast<std::size_t>(row.span.size());
     const ConstPointers frame(patch.frame, at);
     const ConstPointers plate(patch.plate, at);
     const ConstPointers noise(patch.noise, at);
     const ConstPointers mean(patch.mean, at);
-    lanes().colorless(frame.at, plate.at, noise.at, mean.at, patch.bound.data() + at,
-                      patch.residual.data() + at, kCovered, count, alpha.data() + at,
-                      share.data() + at);
-    lanes().above(share.data() + at, 0, count, wide.in.data() + at);
-  });
+    run.colorless(frame.at, plate.at, noise.at, mean.at, patch.bound.data() + at,
+                  patch.residual.data() + at, kCovered, count, alpha.data() + at,
+                  share.data() + at);
+    run.above(share.data() + at, 0, count, wide.in.data() + at);
+  }
   wide = reshape(wide, {-kWide, kWide});
-  for (std::size_t i = 0; i < wide.in.size(); ++i)
-    if (wide.in[i]) {
-      patch.alpha[i] += share[i] * (alpha[i] - patch.alpha[i]);
-      patch.residual[i] *= 1 - share[i];
-    }
+  for (const RowSpan& row : patch.open) {
+    const std::size_t at = first_of(row);
+    for (std::size_t i = at; i < at + static_cast<std::size_t>(row.span.size()); ++i)
+      if (wide.in[i]) {
+        patch.alpha[i] += share[i] * (alpha[i] - patch.alpha[i]);
+        patch.residual[i] *= 1 - share[i];
+      }
+  }
 }
 
 // What no mixture explains, with all its neighbours, is another part of the subject: surely if most

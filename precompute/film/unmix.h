@@ -47,6 +47,7 @@ struct Patch {
   std::vector<float> key, bound, residual, weight, color[3], scratch, soft;
   std::vector<float> near, wide, far, rows;
   std::vector<std::uint8_t> mode;
+  std::vector<RowSpan> open;  // what was projected last: off it the residual is 0
 
   std::size_t cells() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
