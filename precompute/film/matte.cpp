@@ -314,8 +314,8 @@ RunSums sum_run(const std::uint8_t* top, const std::uint8_t* low, int begin, int
 struct Part {
   std::int64_t area = 0, weight = 0, x = 0, y = 0;  // x, y: twice the pixel's centre
   int left = 1 << 30, top = 1 << 30, right = -1, bottom = -1;
-  int seeds = 0, label = 0;
-  bool border = false;
+  int label = 0;
+  bool seeded = false, border = false;
 };
 
 }  // namespace
@@ -363,7 +363,8 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
     const RunSums sums = sum_run(a, b, begin, end);
     part.label = label;
     part.area += sums.all;
-    for (int cx = begin; cx < end; ++cx) part.seeds += patch.seeds.row(cy)[cx];
+    part.seeded = part.seeded || std::memchr(patch.seeds.row(cy) + begin, 1,
+                                             static_cast<std::size_t>(end - begin));
     part.left = std::min(part.left, 2 * begin + (a[2 * begin] || b[2 * begin] ? 0 : 1));
     part.right = std::max(part.right, 2 * end - (a[2 * end - 1] || b[2 * end - 1] ? 0 : 1));
     part.top = std::min(part.top, 2 * cy + (sums.all > sums.low ? 0 : 1));
@@ -371,7 +372,7 @@ void Keyer::Impl::find_blobs(KeyedFrame& result, std::vector<int>& labels) {
   });
   std::vector<Part> kept;
   for (const Part& part : parts)
-    if (part.label && part.seeds) kept.push_back(part);
+    if (part.label && part.seeded) kept.push_back(part);
   std::sort(kept.begin(), kept.end(), [](const Part& a, const Part& b) {
     return a.area != b.area ? a.area > b.area : a.label < b.label;
   });

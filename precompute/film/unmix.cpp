@@ -114,10 +114,16 @@ void gather_evidence(const ScreenModel& screen, Patch& patch) {
   for (std::size_t i = 0; i < n; ++i) patch.key[i] *= gain / std::clamp(most[i], least, usual);
 }
 
+// The pointer is a local one: bytes may alias the vector's own.
+Mask outside_of(Mask mask) {
+  std::uint8_t* in = mask.in.data();
+  for (std::size_t i = 0, n = mask.in.size(); i < n; ++i) in[i] ^= 1;
+  return mask;
+}
+
 // Holes are filled unless a cell of theirs looks like screen.
 void fill_holes(const Patch& patch, Mask& seeds) {
-  Mask rest(seeds.width, seeds.height);
-  for (std::size_t i = 0; i < rest.in.size(); ++i) rest.in[i] = seeds.in[i] ^ 1;
+  const Mask rest = outside_of(seeds);
   std::vector<int> labels;
   const int parts = connected_parts(rest, labels);
   std::vector<std::uint8_t> open(static_cast<std::size_t>(parts) + 1);
@@ -502,8 +508,7 @@ void grow_seeds(Patch& patch) {
 // What is looked at from here on. Returns its cells: a pixel is mixed from cells one apart.
 Mask find_rim(Patch& patch) {
   patch.deep = erode_disc(patch.seeds, kUntouched);
-  Mask edge = erode(patch.deep, 1);
-  for (std::uint8_t& in : edge.in) in ^= 1;
+  const Mask edge = outside_of(erode(patch.deep, 1));
   patch.rim.clear();
   for (int y = 0; y < patch.height; ++y)
     each_run(edge.row(y), patch.spans[static_cast<std::size_t>(y)], [&](int begin, int end) {
