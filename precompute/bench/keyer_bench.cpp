@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 the vsprite authors
 // SPDX-License-Identifier: MIT
 //
-// keyer_bench [speed|truth|chosen|chosen2|chosen3|unseen2|decision|temporal|ours|0..13|FOLDER/]...
+// keyer_bench
+// [speed|truth|chosen|chosen2|chosen3|chosen4|unseen2|decision|temporal|ours|0..13|FOLDER/]...
 // - this keyer beside what is free, in one run:
 //
 //   speed    frames/s at 1080p on one core, the rivals' reading and writing of frames taken off
@@ -9,6 +10,9 @@
 //   chosen   the bundled film's fish before 14 screens: the films that constants were chosen with
 //   chosen2  a ball of fur with a veil before the same screens: looked at since, so chosen with
 //   chosen3  a dragonfly and a long-haired animal before 12 other screens: looked at since, too
+//   chosen4  a white bird, a puppet in a dark cloak and a jellyfish before 12 plain screens without
+//   a
+//            colour: chosen with
 //   unseen2  a seed head and a dancer in a skirt of net, 12 others again: no choice has seen them
 //   decision grey parts read as opaque or as translucent, on the fish and on a grey mouse
 //   temporal whether mixing with the neighbours in time would lower the flicker
@@ -666,7 +670,8 @@ int main(int argc, char** argv) {
   for (const std::string& part : parts)
     if (part.find_first_not_of("0123456789") == std::string::npos) screens.insert(part);
   for (const std::string& number : screens) parts.erase(number);
-  if (parts.empty()) parts = {"speed", "truth", "chosen", "chosen2", "chosen3", "unseen2"};
+  if (parts.empty())
+    parts = {"speed", "truth", "chosen", "chosen2", "chosen3", "chosen4", "unseen2"};
   const bool alone = parts.count("ours") > 0;
   for (const std::string& part : parts)
     if (part.find('/') != std::string::npos) picture_folder = part;
@@ -692,6 +697,10 @@ int main(int argc, char** argv) {
   if (parts.count("chosen3"))
     run_pool("chosen with: clear wings and long hair", testing::more_conditions(),
              {filmed(testing::dragonfly), filmed(testing::longhair)}, folder, alone ? 0 : 12);
+  if (parts.count("chosen4"))
+    run_pool("chosen with: a white bird, a puppet, a jellyfish", testing::plain_conditions(),
+             {filmed(testing::gull), filmed(testing::puppet), filmed(testing::jellyfish)}, folder,
+             alone ? 0 : 12);
   if (parts.count("unseen2"))
     run_pool("never seen: a seed head and a dancer", testing::unseen_conditions(),
              {filmed(testing::seed_head), filmed(testing::dancer)}, folder, alone ? 0 : 12);

@@ -72,6 +72,25 @@ inline const std::vector<Condition>& more_conditions() {
   return all;
 }
 
+/// Screens without a colour, for three subjects in turn; chosen with.
+inline const std::vector<Condition>& plain_conditions() {
+  static const std::vector<Condition> all = {
+      {"bright white", {228, 229, 231}, 0.1, 1.5, 0.0, 18},
+      {"dark slate", {58, 60, 64}, 0.2, 2, 0.0, 18},
+      {"soot", {20, 20, 21}, 0.1, 1.5, 0.0, 18},
+      {"bone", {212, 208, 200}, 0.15, 2, 0.0, 20},
+      {"copy paper", {240, 240, 238}, 0.1, 1.5, 0.0, 18},
+      {"silver grey", {186, 184, 182}, 0.15, 2, 0.0, 18},
+      {"cement", {168, 170, 174}, 0.2, 2, 0.0, 18},
+      {"coal", {44, 44, 46}, 0.15, 2, 0.0, 20},
+      {"lead grey", {78, 80, 84}, 0.15, 2.5, 0.0, 18},
+      {"white, compressed", {222, 221, 218}, 0.15, 2, 0.0, 29},
+      {"uneven off-white", {216, 218, 214}, 0.3, 2, 0.0, 20},
+      {"chalk", {232, 232, 228}, 0.1, 3, 0.0, 20},
+  };
+  return all;
+}
+
 /// The screens of the films that no choice has seen: six for each of two subjects, in turn.
 inline const std::vector<Condition>& unseen_conditions() {
   static const std::vector<Condition> all = {
@@ -374,6 +393,174 @@ inline CutOut longhair(double time, int width, int height) {
                 if (!body && !head && !leg) return 0.0;
                 coat(u, v, color);
                 return 1.0;
+              });
+  return layers.finish();
+}
+
+/// A white bird in flight: pale grey wings with dark, frayed ends, a yellow bill.
+inline CutOut gull(double time, int width, int height) {
+  Layers layers(width, height);
+  const double cx = width * (0.3 + 0.006 * time);
+  const double cy = height * (0.5 + 0.1 * std::sin(0.13 * time));
+  const double r = 0.085 * height;
+  const double beat = std::sin(0.45 * time);
+  std::uint32_t state = 5309;
+  const auto random = [&state] {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<double>(state >> 8) / (1 << 24);
+  };
+  const auto wing = [&](double side, double shade) {
+    const double coat[3] = {0.47 * shade, 0.5 * shade, 0.53 * shade};
+    const double lift = (0.5 + 0.5 * side * 0.2) * beat;
+    const auto bone = [&](double t) { return -lift * (1.9 * t - 0.9 * t * t) * 2.2; };
+    const auto color_at = [&](double t, double light, double(&color)[3]) {
+      const double base[3] = {0.46, 0.49, 0.52};
+      const double dark = std::clamp((t - 0.72) * 8, 0.0, 1.0);
+      for (int p = 0; p < 3; ++p) color[p] = shade * light * ((1 - dark) * base[p] + dark * 0.03);
+    };
+    for (int k = 0; k < 26; ++k) {  // the feathers behind the bone
+      const double t = k / 25.0;
+      double color[3];
+      color_at(t, 0.9 + 0.2 * random(), color);
+      const double length = r * (0.75 + 0.45 * t + 0.2 * random());
+      layers.stroke(
+          static_cast<int>(2 * length),
+          [&](double s) {
+            return std::pair{cx + side * 3.4 * r * t * (1 + 0.12 * s) - 0.35 * length * s,
+                             cy + r * bone(t) + length * s * (1 - 0.35 * t)};
+          },
+          [&](double s) { return 0.075 * r * (1.3 - s); }, color);
+    }
+    layers.stroke(
+        static_cast<int>(8 * r),
+        [&](double t) {
+          return std::pair{cx + side * 3.4 * r * t, cy + r * bone(t)};
+        },
+        [&](double t) { return r * (0.3 - 0.2 * t); }, coat);
+  };
+  wing(-1, 0.85);
+  layers.area(cx - 3 * r, cy - 2 * r, cx + 3 * r, cy + 2 * r,
+              [&](double x, double y, double(&color)[3]) {
+                const double u = (x - cx) / r, v = (y - cy) / r;
+                const bool body = u * u / 3.4 + v * v / 0.42 < 1;
+                const bool head = std::hypot(u - 1.75, v + 0.25) < 0.46;
+                const bool tail = u < -1.2 && u > -2.7 && std::abs(v) < 0.12 - 0.17 * (u + 1.2);
+                const bool bill = u > 2.0 && u < 2.75 && std::abs(v + 0.2) < 0.13 * (2.85 - u);
+                const bool eye = std::hypot(u - 1.9, v + 0.35) < 0.08;
+                if (!body && !head && !tail && !bill) return 0.0;
+                const double light = 0.82 - 0.22 * v - (tail ? 0.05 * std::sin(9 * v) : 0.0);
+                color[0] = eye ? 0.02 : bill && !head ? 0.62 : light;
+                color[1] = eye ? 0.02 : bill && !head ? 0.38 : 0.985 * light;
+                color[2] = eye ? 0.02 : bill && !head ? 0.04 : 0.95 * light;
+                return 1.0;
+              });
+  wing(1, 1);
+  return layers.finish();
+}
+
+/// A puppet on strings: a head of wood, a dark cloak in folds with a torn hem, a collar of lace.
+inline CutOut puppet(double time, int width, int height) {
+  Layers layers(width, height);
+  const double cx = width * (0.5 + 0.22 * std::sin(0.07 * time));
+  const double cy = height * (0.44 + 0.03 * std::sin(0.3 * time));
+  const double r = 0.075 * height;
+  const double swing = std::sin(0.17 * time);
+  const double string[3] = {0.2, 0.19, 0.17}, wood[3] = {0.38, 0.22, 0.1};
+  const double lace[3] = {0.6, 0.58, 0.52}, shoe[3] = {0.34, 0.03, 0.03};
+  for (const double side : {-1.0, 0.0, 1.0})
+    layers.stroke(
+        height / 2,
+        [&](double t) {
+          return std::pair{cx + r * side * (2.4 - t) * (side != 0.0 ? 1.0 : 0.0),
+                           cy - r * (2 + (5 + side) * t) + (side != 0.0 ? 1.6 * r * (1 - t) : 0)};
+        },
+        [](double) { return 0.35; }, string);
+  for (const double side : {-1.0, 1.0}) {
+    layers.stroke(
+        120,
+        [&](double t) {
+          return std::pair{cx + r * side * (0.6 + 0.2 * t) + r * swing * side * t * 0.4,
+                           cy + r * (2.6 + 1.9 * t)};
+        },
+        [&](double t) { return r * (t > 0.8 ? 0.32 : 0.2); }, shoe);
+    layers.stroke(
+        120,
+        [&](double t) {
+          return std::pair{cx + r * side * (0.7 + 1.7 * t),
+                           cy + r * (-0.9 + 0.7 * t * (1 - swing * side))};
+        },
+        [&](double t) { return r * (0.34 - 0.16 * t); }, wood);
+  }
+  layers.area(
+      cx - 3 * r, cy - 2 * r, cx + 3 * r, cy + 4 * r, [&](double x, double y, double(&color)[3]) {
+        const double u = (x - cx) / r - 0.2 * swing * (y - cy) / r, v = (y - cy) / r;
+        const double hem = 3.2 + 0.3 * std::sin(4 * u + 0.2 * time) + 0.12 * std::sin(17 * u);
+        if (v < -1.3 || v > hem || std::abs(u) > 0.75 + 0.32 * (v + 1.3)) return 0.0;
+        const double fold = 0.5 + 0.5 * std::sin(6.5 * u / (0.8 + 0.2 * v) + 0.8 * swing);
+        const double light = 0.015 + 0.075 * fold * fold;
+        color[0] = 0.95 * light, color[1] = light, color[2] = 1.2 * light;
+        return 1.0;
+      });
+  layers.area(cx - 2 * r, cy - 3 * r, cx + 2 * r, cy + r,
+              [&](double x, double y, double(&color)[3]) {
+                const double u = (x - cx) / r, v = (y - cy) / r + 0.15 * std::abs(u);
+                if (std::abs(u) > 1.5 || v < -1.5 || v > -0.8 + 0.1 * std::sin(9 * u)) return 0.0;
+                for (int p = 0; p < 3; ++p) color[p] = lace[p];
+                return std::sin(22 * u) * std::sin(22 * v) > 0.25 ? 0.9 : 0.3;
+              });
+  layers.area(cx - 2 * r, cy - 4 * r, cx + 2 * r, cy, [&](double x, double y, double(&color)[3]) {
+    const double u = (x - cx) / r, v = (y - cy) / r + 2.2;
+    const bool nose = u > 0 && u < 1.35 && std::abs(v - 0.1) < 0.16 * (1.45 - u);
+    if (std::hypot(u / 0.8, v) > 1 && !nose) return 0.0;
+    const double light = 1 - 0.3 * u + 0.08 * std::sin(8 * v + 2 * u);
+    const bool paint = std::hypot(u - 0.3, v + 0.2) < 0.16 || (v < -0.55 + 0.1 * u);
+    for (int p = 0; p < 3; ++p) color[p] = paint ? 0.04 : wood[p] * light;
+    return 1.0;
+  });
+  return layers.finish();
+}
+
+/// A jellyfish: a clear bell with a denser rim and opaque organs, arms like veils, fine threads.
+inline CutOut jellyfish(double time, int width, int height) {
+  Layers layers(width, height);
+  const double cx = width * (0.42 + 0.003 * time);
+  const double cy = height * (0.42 - 0.08 * std::sin(0.06 * time));
+  const double pulse = std::sin(0.3 * time);
+  const double wide = 0.19 * height * (1 - 0.08 * pulse), high = 0.15 * height * (1 + 0.08 * pulse);
+  const double thread[3] = {0.5, 0.44, 0.46};
+  for (int k = 0; k < 22; ++k) {
+    const double u = -0.95 + 1.9 * k / 21;
+    const double length = height * (0.22 + 0.12 * std::sin(5.3 * k));
+    layers.stroke(
+        static_cast<int>(2 * length),
+        [&](double t) {
+          return std::pair{cx + wide * u + 9 * std::sin(5 * t + 0.25 * time + k) * t,
+                           cy + 0.2 * high + length * t};
+        },
+        [](double t) { return 0.5 - 0.3 * t; }, thread);
+  }
+  for (int k = -1; k <= 1; ++k)
+    layers.area(
+        cx - wide, cy, cx + wide, cy + 0.42 * height, [&](double x, double y, double(&color)[3]) {
+          const double v = (y - cy) / (0.36 * height);
+          const double u = (x - cx) / wide - 0.35 * k - 0.1 * std::sin(6 * v + 0.25 * time + k);
+          const double half = 0.13 * (1 - v) * (1 + 0.3 * std::sin(25 * v));
+          if (v < 0 || v > 1 || std::abs(u) > half) return 0.0;
+          color[0] = 0.62, color[1] = 0.46, color[2] = 0.42;
+          return 0.35 + 0.3 * std::sin(30 * u) * std::sin(30 * u);
+        });
+  layers.area(cx - 1.1 * wide, cy - 1.1 * high, cx + 1.1 * wide, cy + 0.4 * high,
+              [&](double x, double y, double(&color)[3]) {
+                const double u = (x - cx) / wide, v = (y - cy) / high;
+                const double far = std::hypot(u, v);
+                if (far > 1 || v > 0.25 + 0.05 * std::sin(20 * u)) return 0.0;
+                for (const double at : {-0.36, -0.12, 0.14, 0.38})
+                  if (std::hypot((u - at) / 0.1, (v + 0.35) / 0.2) < 1) {
+                    color[0] = 0.55, color[1] = 0.2, color[2] = 0.27;
+                    return 0.92;
+                  }
+                color[0] = 0.6, color[1] = 0.55, color[2] = 0.58;
+                return 0.16 + 0.5 * std::pow(far, 6) + 0.05 * std::sin(12 * u);
               });
   return layers.finish();
 }
