@@ -330,6 +330,16 @@ void drop_faint(const ScreenModel& screen, Silhouette& s) {
   Mask near = dilate(strong, 3);
   leave_unlike(near);
   join(dilate(strong, 1), near);
+  // What is lighter than a plain screen is no shadow of anything.
+  for (int y = 0; y < s.window.height && screen.kind == KeyKind::Color; ++y) {
+    const Span span = s.spans[static_cast<std::size_t>(y)];
+    for (int x = span.begin; x < span.end; ++x) {
+      const auto i = static_cast<std::size_t>(y * s.window.width + x);
+      const float away = s.frame[0][i] + s.frame[1][i] + s.frame[2][i] - s.plate[0][i] -
+                         s.plate[1][i] - s.plate[2][i];
+      if (away > 0) near.in[i] = 1;
+    }
+  }
   lanes().spread_into(near.in.data(), near.in.size(), false, s.mask.in.data());
 }
 

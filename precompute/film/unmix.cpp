@@ -159,6 +159,48 @@ void add_inside(const ScreenModel& screen, const Patch& patch, Mask& seeds) {
   lanes().spread_into(inside.in.data(), seeds.in.size(), true, seeds.in.data());
 }
 
+// A veil moves its screen one way, towards its own colour. What is lighter than a grey screen close
+// to what is darker, folds of a cloth or a white bird's grey wings, is opaque, and so is what lies
+// between them and can be as grey as the screen.
+void add_two_sided(const Patch& patch, Mask& sure) {
+  constexpr float kBeyond = 2;      // noise
+  constexpr float kShade = 0.5f;    // a cast shadow leaves more of the light,
+  constexpr float kTinted = 0.88f;  // and about as much of every channel
+  constexpr int kClose = 8;         // cells
+  constexpr int kDeep = 4;          // cells inside the region
+  Mask lighter(patch.width, patch.height);
+  Mask darker(patch.width, patch.height);
+  each_span(patch, [&](std::size_t at, std::size_t count) {
+    const ConstPointers frame(patch.frame, at);
+    const ConstPointers plate(patch.plate, at);
+    const ConstPointers noise(patch.noise, at);
+    const auto sum = [](const ConstPointers& of, std::size_t i) {
+      return of.at[0][i] + of.at[1][i] + of.at[2][i];
+    };
+    const auto like_shade = [](const ConstPointers& c, const ConstPointers& b, std::size_t i) {
+      float least_left = 1;
+      float most_left = 0;
+      for (int p = 0; p < 3; ++p) {
+        const float left = c.at[p][i] / std::max(b.at[p][i], 1e-4f);
+        least_left = std::min(least_left, left);
+        most_left = std::max(most_left, left);
+      }
+      return most_left > kShade && least_left > kTinted * most_left;
+    };
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!patch.region.in[at + i]) continue;
+      const float away = sum(frame, i) - sum(plate, i);
+      const float least = kBeyond * sum(noise, i);
+      lighter.in[at + i] = away > least ? 1 : 0;
+      darker.in[at + i] = away < -least && !like_shade(frame, plate, i) ? 1 : 0;
+    }
+  });
+  Mask both = reshape(lighter, {-1, 1 + kClose});
+  for (const Mask& with : {reshape(darker, {-1, 1 + kClose}), erode_disc(patch.region, kDeep)})
+    lanes().spread_into(with.in.data(), both.in.size(), false, both.in.data());
+  lanes().spread_into(both.in.data(), both.in.size(), true, sure.in.data());
+}
+
 void find_seeds(const ScreenModel& screen, Patch& patch) {
   const std::size_t n = patch.cells();
   // Deep inside less is enough, but not of a subject that is much stronger than the key or, before
@@ -173,6 +215,7 @@ void find_seeds(const ScreenModel& screen, Patch& patch) {
                    inverse, 0.85f, enough},
                   count, sure.in.data() + at, likely.in.data() + at);
   });
+  if (own_strength) add_two_sided(patch, sure);
   patch.seeds = reshape(sure, {1, -2});
   if (screen.kind == KeyKind::Plate) add_inside(screen, patch, patch.seeds);
   Mask deep = erode_disc(patch.region, 5);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "support/keyed_alpha.h"
@@ -249,6 +250,56 @@ TEST(Matte, AWideFaintWingBeforeBlackIsNotOpaque) {
   for (int v = 90; v < 120; ++v)
     for (int u = 135; u < 185; ++u) sum += alpha_of(keyed, u, v) / 255.0;
   EXPECT_NEAR(sum / (30 * 50), 0.15, 0.05);
+}
+
+// A pale body before dark grey with a cloth of 70 x 75 px above it, in folds darker and lighter
+// than the screen.
+Frame with_a_cloth(int index, double x) {
+  SyntheticFilm film;
+  film.noise = 1;
+  for (int c = 0; c < 3; ++c) film.screen[c] = 62, film.subject[c] = 205;
+  const Disc body{x, 170, 44, 26};
+  Image made = film.image(index, {body});
+  for (int k = 0; k < 70; ++k)
+    lay_wing(film, body, {static_cast<int>(x) - 35 + k, 80, 1, 75},
+             0.05 + 0.04 * std::sin(0.22 * k), 1, made);
+  return to_frame(made, index);
+}
+
+TEST(Matte, FoldsAboutTheScreensOwnGreyAreOpaque) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i) frames.push_back(with_a_cloth(i, 60.0 + 12 * i));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  ASSERT_LT(screen->key, 0) << screen->reason;
+  const KeyedFrame keyed = Keyer(*screen, {}).key(with_a_cloth(40, 160), nullptr);
+  for (int v = 95; v < 140; v += 5)
+    for (int u = 137; u < 183; ++u) EXPECT_GT(alpha_of(keyed, u, v), 250) << u << ", " << v;
+}
+
+// A large pale body before grey with a wing of its own colour above it that is hardly there.
+Frame with_a_hint_of_a_wing(int index, double x) {
+  SyntheticFilm film;
+  film.noise = 1;
+  for (int c = 0; c < 3; ++c) film.screen[c] = 128, film.subject[c] = 205;
+  const Disc body{x, 165, 50, 40};
+  Image made = film.image(index, {body});
+  lay_wing(film, body, {static_cast<int>(x) - 30, 90, 60, 60}, SyntheticFilm::linear(205), 0.1,
+           made);
+  return to_frame(made, index);
+}
+
+TEST(Matte, WhatIsFaintButLighterThanAPlainScreenIsNoShadow) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 16; ++i) frames.push_back(with_a_hint_of_a_wing(i, 60.0 + 12 * i));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  ASSERT_LT(screen->key, 0) << screen->reason;
+  const KeyedFrame keyed = Keyer(*screen, {}).key(with_a_hint_of_a_wing(40, 160), nullptr);
+  double sum = 0;
+  for (int v = 95; v < 115; ++v)
+    for (int u = 140; u < 180; ++u) sum += alpha_of(keyed, u, v) / 255.0;
+  EXPECT_NEAR(sum / (20 * 40), 0.1, 0.04);
 }
 
 // A dark subject on a pale floor, at x = 205, and from x = 220 on a wall not much paler than it, in
