@@ -238,9 +238,10 @@ Image show_parts(const KeyedFrame& keyed, int film_width, int film_height,
   const auto at = [zoom](int film) { return static_cast<int>(film * zoom); };
   for (std::size_t k = 0; k < parts.size(); ++k) {
     const Rect& box = parts[k].box;
-    for (int grow : {1, 2})
-      cell.frame(at(box.x) - grow, at(box.y) - grow, at(box.x + box.width) + grow,
-                 at(box.y + box.height) + grow);
+    for (int grow : {1, 2})  // along the border where the part reaches it
+      cell.frame(std::max(at(box.x) - grow, 2 - grow), std::max(at(box.y) - grow, 2 - grow),
+                 std::min(at(box.x + box.width) + grow, width - 3 + grow),
+                 std::min(at(box.y + box.height) + grow, height - 3 + grow));
     if (parts.size() > 1)
       draw_number(cell, std::clamp(at(box.x) + 3, 3, std::max(width - 40, 3)),
                   std::clamp(at(box.y) + 3, 3, std::max(height - 20, 3)), static_cast<int>(k) + 1);

@@ -358,6 +358,10 @@ Result<Extraction> extract(std::span<const FrameSummary> frames, double fps,
   if (!track) return track.error();
   Extraction result;
   result.fates.resize(frames.size());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    const Blob* blob = track->blob[f];
+    result.followed.push_back(blob ? static_cast<int>(blob - frames[f].blobs.data()) : -1);
+  }
   const auto repeats = find_duplicates(frames, *track);
   const auto clips = split_clips(frames, *track, repeats, config, result);
   if (clips.empty()) return nothing_left(result, config);

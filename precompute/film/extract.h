@@ -54,6 +54,7 @@ struct Extraction {
   std::vector<int> labels;     ///< (rows) blob label to cut out of the keyed frame
   std::vector<int> positions;  ///< (rows) index into the summaries
   std::vector<Fate> fates;     ///< (summaries)
+  std::vector<int> followed;   ///< (summaries) the subject's blob, an index; -1: none
   int clips = 0;
   int cuts = 0;      ///< clips that begin with a leap of the subject or the picture
   int missing = 0;   ///< frames that the camera left out, by the time stamps

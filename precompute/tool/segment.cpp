@@ -203,16 +203,47 @@ class KeyingPass {
   std::optional<Error> write_fault_;
 };
 
-/// Returns the share of the subject that shows as holes, the median of the frames shown.
+/// The blob of a frame keyed anew that sample `row` was cut from: the one that covers most of it.
+std::size_t blob_of(const KeyedFrame& frame, const SampleRow& row) {
+  const auto shared = [](double a, double a_size, double b, double b_size) {
+    return std::max(0.0, std::min(a + a_size, b + b_size) - std::max(a, b));
+  };
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t b = 0; b < frame.blobs.size(); ++b) {
+    const Rect& box = frame.blobs[b].box;
+    const double common = shared(box.x, box.width, row.left, row.width) *
+                          shared(box.y, box.height, row.top, row.height);
+    const double all = box.width * box.height + row.width * row.height - common;
+    if (common / all > most) most = common / all, best = b;
+  }
+  return best;
+}
+
+/// Shows frames that samples stand for, about the subject that was followed. Returns the share of
+/// it that shows as holes, the median of the frames shown.
 Result<double> write_contact_sheet(const StageRun& run, const ScreenModel& screen,
-                                   const MatteConfig& matte, const std::vector<Frame>& sampled) {
+                                   const MatteConfig& matte, const std::vector<Frame>& sampled,
+                                   const Extraction& extraction) {
+  std::error_code ignored;
+  fs::remove(run.project.path("contact.png"), ignored);
+  const auto& rows = extraction.rows;
+  const auto filmed =
+      std::find_if(rows.begin(), rows.end(), [](const SampleRow& r) { return r.mirror_of >= 0; });
   std::vector<Frame> frames;
   std::vector<KeyedFrame> keyed;
   Keyer keyer(screen, matte);
   const std::size_t stride = std::max<std::size_t>(1, sampled.size() / (3 * kContactRows));
   for (std::size_t i = 0; i < sampled.size() && frames.size() < kContactRows; i += stride) {
+    const auto after =
+        std::upper_bound(rows.begin(), filmed, sampled[i].index,
+                         [](int index, const SampleRow& row) { return index < row.frame; });
+    if (after == rows.begin()) continue;
+    const SampleRow& row = *std::prev(after);
+    if (sampled[i].index >= row.frame + row.duration) continue;
     KeyedFrame frame = keyer.key(sampled[i], nullptr);
-    if (frame.blobs.empty() || frame.blobs.front().touches_border) continue;
+    if (frame.blobs.empty()) continue;
+    std::swap(frame.blobs.front(), frame.blobs[blob_of(frame, row)]);
     frames.push_back(sampled[i]);
     keyed.push_back(std::move(frame));
     i += 2 * stride;
@@ -275,8 +306,9 @@ Result<Json> write_dropped(const StageRun& run, const KeyedStore& store, const F
     const std::string name = std::string("dropped/") + fate_name(fate) + ".png";
     if (auto made = make_folder(run.project.path("dropped")); !made) return made.error();
     const auto& blobs = summaries[position].blobs;
+    const auto subject = static_cast<std::size_t>(std::max(extraction.followed[position], 0));
     if (auto wrote = write_parts(run, store, info, static_cast<int>(position),
-                                 std::span(blobs).first(1), name);
+                                 std::span(blobs).subspan(subject, 1), name);
         !wrote)
       return wrote.error();
     pictures[fate_name(fate)] = {
@@ -501,7 +533,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (!resumed) return resumed.error();
   if (auto made = make_folder(run.project.path("sprites")); !made) return made.error();
   if (auto cut = cut_sprites(run, *store, *extraction, *resumed); !cut) return cut.error();
-  const auto holes = write_contact_sheet(run, *screen, *matte, *sampled);
+  const auto holes = write_contact_sheet(run, *screen, *matte, *sampled, *extraction);
   if (!holes) return holes.error();
   if (auto wrote = write_file(run.project.path("samples.csv"), table); !wrote) return wrote.error();
   const auto dropped = write_dropped(run, *store, info, *summaries, *extraction);

@@ -109,6 +109,24 @@ TEST(Extract, RefusesSeveralSubjects) {
   EXPECT_NE(result.error().message.find("(300, 200)"), std::string::npos);
 }
 
+TEST(Extract, SaysWhichPartWasFollowed) {
+  auto frames = walk(30);
+  for (auto& frame : frames) {
+    frame.blobs.push_back(blob_at(300 - frame.index, 200, 38));
+    frame.blobs.back().label = 2;
+    frame.blobs.back().touches_border = frame.index < 4;
+  }
+  frames[29].blobs.clear();
+  ExtractConfig config;
+  config.subject.number = 2;
+  const auto result = extract(frames, 30, "a.mp4", config);
+  ASSERT_TRUE(result) << result.error().message;
+  EXPECT_EQ(result->count(Fate::Border), 4);
+  ASSERT_EQ(result->followed.size(), 30u);
+  for (std::size_t f = 0; f < 29; ++f) EXPECT_EQ(result->followed[f], 1) << "frame " << f;
+  EXPECT_EQ(result->followed[29], -1);
+}
+
 TEST(Extract, RefusesAFilmWithoutASubject) {
   std::vector<FrameSummary> frames(20);
   const auto result = extract(frames, 30, "a.mp4", {});
