@@ -218,7 +218,7 @@ Result<std::string> Project::sprites_sum() const {
       return Error{ErrorCode::CorruptData,
                    sprite_path(row.sample) + ": the picture of sample " +
                        std::to_string(row.sample) +
-                       " is missing: `vsprite segment --force segment` cuts all anew"};
+                       " is missing: `vsprite segment FILM --force segment` cuts all anew"};
     if (!sum) return sum.error();
     sums += hex64(*sum);
   }

@@ -593,7 +593,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
   return best;
 }
 
-std::string shell_word(const std::string& word) {
+namespace {
+
+std::string shell_quoted(const std::string& word) {
   const bool plain = !word.empty() && word.find_first_not_of(
                                           "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                           "0123456789_-./+:,@%") == std::string::npos;
@@ -601,6 +603,12 @@ std::string shell_word(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
+}
+
+}  // namespace
+
+std::string shell_word(const std::string& path) {
+  return shell_quoted(path.starts_with('-') ? "./" + path : path);
 }
 
 std::string options_text(const Settings& settings, std::string_view verb) {
@@ -617,7 +625,7 @@ std::string options_text(const Settings& settings, std::string_view verb) {
       for (std::size_t i = 1; i + 1 < value.size(); ++i) plain += value[value[i] == '\\' ? ++i : i];
       value = std::move(plain);
     }
-    out += " " + shell_word(value);
+    out += " " + shell_quoted(value);
   }
   return out;
 }

@@ -185,8 +185,8 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 /// verb.
 std::string options_text(const Settings& settings, std::string_view verb);
 
-/// A word as a shell takes it back.
-std::string shell_word(const std::string& word);
+/// A path as a shell and the command line take it back: quoted where due, never an option.
+std::string shell_word(const std::string& path);
 
 /// Applies `key = value` of a TOML text. Errors: BadContent, naming file, line and column.
 Result<void> apply_config(Settings& settings, const std::string& text, const std::string& path);

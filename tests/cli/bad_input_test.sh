@@ -44,13 +44,34 @@ says "there is no folder nowhere"; one_sentence
 film two two.mp4 100
 expect 3 vsprite build two.mp4
 says "two.mp4: several subjects"; says "two.work/subjects.png shows those of frame"; one_sentence
+expect 0 vsprite doctor two.mp4
+prints "warning: two.work: no film has been segmented here"
 [ -s two.work/subjects.png ] || fail "there is no picture of the subjects"
+expect 0 vsprite segment two.mp4 --subject 1
+prints "look at two.work/contact.png"
+first=$(sum two.work/contact.png)
 expect 0 vsprite segment two.mp4 --subject 2
+[ "$(sum two.work/contact.png)" != "$first" ] || fail "a choice of subject is not on the contact sheet"
 expect 0 vsprite segment two.mp4 --subject largest
 expect 3 vsprite segment two.mp4 --subject 3
 says "--subject 3"; one_sentence
 expect 2 vsprite segment two.mp4 --subject both
 film circle circle.mp4 100
+# What stands under the output's name and is none of its kind stays.
+film_sum=$(sum circle.mp4)
+expect 2 vsprite build circle.mp4 -o circle.mp4
+says "circle.mp4: is there already, is no pack and stays"; one_sentence
+expect 2 vsprite segment circle.mp4 --preview 2 -o circle.mp4
+says "circle.mp4: is there already, is no PNG file and stays"; one_sentence
+[ "$(sum circle.mp4)" = "$film_sum" ] || fail "the film was overwritten"
+# A file whose name begins as an option's.
+cp circle.mp4 ./-circle.mp4
+expect 2 vsprite segment -circle.mp4
+says "no option is called \`-circle.mp4\`: the file is ./-circle.mp4"; one_sentence
+expect 0 vsprite segment -- -circle.mp4
+prints "next: vsprite train --work ./-circle.work"
+expect 0 vsprite segment circle.mp4 --edge -1 --preview 2
+prints "next: vsprite build circle.mp4 --edge -1"
 # What is wrong with a film that can be used all the same is said without being asked for.
 ffmpeg -nostdin -v error -i circle.mp4 -vf tinterlace=interleave_top,setfield=tff -c:v libx264 -preset ultrafast \
   -x264opts tff=1 fields.mp4 || fail "ffmpeg"

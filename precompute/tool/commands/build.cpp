@@ -4,6 +4,7 @@
 // build and its five stages.
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "tool/cast_file.h"
 #include "tool/commands/verbs.h"
@@ -27,6 +28,19 @@ constexpr int kSegment = 0, kPack = 4;
 struct Places {
   std::string film, work, pack;
 };
+
+/// A file is replaced by its like alone, one that begins with the same bytes, or is empty: a film
+/// that was named as the output by mistake stays. Errors: BadSetting.
+Result<void> check_output(const std::string& path, std::string_view begin, const char* what) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error) || fs::file_size(path, error) == 0) return {};
+  std::string found(begin.size(), '\0');
+  std::ifstream(path, std::ios::binary)
+      .read(found.data(), static_cast<std::streamsize>(found.size()));
+  if (found == begin) return {};
+  return Error{ErrorCode::BadSetting, path + ": is there already, is no " + what +
+                                          " and stays: name another file with -o"};
+}
 
 Result<Places> find_places(const Settings& settings, int first) {
   const bool needs_film = first == kSegment;
@@ -58,6 +72,8 @@ Result<Places> find_places(const Settings& settings, int first) {
 Result<std::vector<StageOutcome>> run_range(const Places& places, const Settings& settings,
                                             Console& console, int first, int last,
                                             const Sharing& sharing) {
+  if (last == kPack)
+    if (auto free = check_output(places.pack, "\x89VSP", "pack"); !free) return free.error();
   auto project = Project::open(places.work, first == kSegment);
   if (!project) return project.error();
   if (last == kPack) {
@@ -82,12 +98,22 @@ Result<int> run_shared(const Settings& settings,
 #endif
 }
 
+/// Where the pictures lie that show what was cut out, and what was left out.
+std::string pictures_text(const Places& places, const StageOutcome& segment) {
+  std::error_code error;
+  const std::string sheet = places.work + "/contact.png";
+  if (!fs::exists(sheet, error)) return {};
+  const bool left_out = !segment.result.value("dropped", Json::object()).empty();
+  return "look at " + sheet + (left_out ? " and " + places.work + "/dropped" : "") + "\n";
+}
+
 Result<int> run_one(const Settings& settings, Console& console, int stage, const Sharing& sharing) {
   const auto places = find_places(settings, stage);
   if (!places) return places.error();
   const auto outcomes = run_range(*places, settings, console, stage, stage, sharing);
   if (!outcomes) return outcomes.error();
-  console.text(build_text(*outcomes));
+  console.text(build_text(*outcomes) +
+               (stage == kSegment ? pictures_text(*places, outcomes->front()) : ""));
   console.document(build_json(*outcomes));
   if (stage == kPack)
     console.next("vsprite play " + shell_word(places->pack));
@@ -103,7 +129,7 @@ Result<int> run_all(const Settings& settings, Console& console, const Sharing& s
   const auto outcomes = run_range(*places, settings, console, kSegment, kPack, sharing);
   if (!outcomes) return outcomes.error();
   console.text(places->film + " -> " + places->pack + (settings.draft ? ", a draft" : "") + "\n\n" +
-               build_text(*outcomes) + "\n");
+               build_text(*outcomes) + "\n" + pictures_text(*places, outcomes->front()));
   console.document(build_json(*outcomes));
   console.next("vsprite play " + shell_word(places->pack));
   return 0;
@@ -118,6 +144,7 @@ Result<int> run_preview(const Settings& settings, Console& console) {
   const std::string output = settings.output.empty()
                                  ? fs::path(settings.film).stem().string() + ".preview.png"
                                  : settings.output;
+  if (auto free = check_output(output, "\x89PNG", "PNG file"); !free) return free.error();
   const auto made = preview_film(settings, places->film, output);
   if (!made) return made.error();
   std::string text = "background: " + (*made)["background"].get<std::string>() + "\n";

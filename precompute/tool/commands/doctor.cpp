@@ -165,7 +165,8 @@ void check_file(const Result<T>& file, Findings& findings, const char* remedy) {
   findings.push_back({"work", kBroken, file.error().message, said ? "" : remedy});
 }
 
-void check_work(const std::string& folder, Findings& findings) {
+/// `filmed`: a film is looked at, and its folder beside it: that nothing is cut yet is no fault.
+void check_work(const std::string& folder, bool filmed, Findings& findings) {
   if (const int holder = lock_holder(folder); holder > 0)
     findings.push_back({"work", kWarning, folder + ": in use by process " + std::to_string(holder),
                         "wait for it to end"});
@@ -179,7 +180,7 @@ void check_work(const std::string& folder, Findings& findings) {
   if (!rows) {
     const bool absent = rows.error().code == ErrorCode::NotFound;
     findings.push_back(
-        {"work", kBroken, rows.error().message,
+        {"work", absent && filmed ? kWarning : kBroken, rows.error().message,
          absent ? "vsprite build FILM; what an interrupted run had finished is not done again"
                 : "mend the line, or cut all anew: vsprite segment FILM --force segment"});
     return;
@@ -232,7 +233,7 @@ Result<int> run_doctor(const Settings& settings, Console& console) {
   if (!operand.empty() || !settings.work.empty()) {
     const std::string work = find_work_folder(settings.work, operand, {});
     if (folder || !settings.work.empty() || fs::is_directory(work, error))
-      check_work(work, findings);
+      check_work(work, !operand.empty() && !folder && !pack, findings);
   }
 
   std::string text,

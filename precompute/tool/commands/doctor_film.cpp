@@ -120,7 +120,7 @@ Finding screen_verdict(const Patient& p) {
     return {"screen", kWarning,
             text + "; " + percent(c.lost) +
                 " of the subject is too like it and shows as holes (or has holes)",
-            "look: vsprite segment " + p.path +
+            "look: vsprite segment " + shell_word(p.path) +
                 " --preview 8; a background of another colour or brightness helps"};
   if (color && c.unevenness > 0.5)
     return {"screen", kWarning, text, "light it from two sides, keep the subject off the screen"};
@@ -131,7 +131,8 @@ Finding subject_verdict(const Patient& p) {
   const Checkup& c = p.c;
   if (c.present < 0.02)
     return {"subject", kBroken, "subject: none is found in " + std::to_string(c.frames) + " frames",
-            "look: vsprite segment " + p.path + " --preview 8; or name the screen's colour: --key"};
+            "look: vsprite segment " + shell_word(p.path) +
+                " --preview 8; or name the screen's colour: --key"};
   std::string text = "subject: ";
   if (c.body > 0) text += fixed_text(c.body, 0) + " px long, ";
   text += "whole in " + percent(c.whole) + " of the frames";

@@ -4,6 +4,7 @@
 // The one file that sees CLI11: it splits the words, the settings table says what they mean.
 #include <CLI/CLI.hpp>
 #include <deque>
+#include <filesystem>
 
 #include "tool/commands/verbs.h"
 
@@ -22,6 +23,10 @@ Error unknown_word(const Verb& verb, const std::string& word) {
     return {ErrorCode::BadSetting, "`" + word + "` is one operand too many: `vsprite " +
                                        std::string(verb.name) + " " + std::string(verb.operand) +
                                        "` is due"};
+  std::error_code ignored;
+  if (std::filesystem::exists(word, ignored))
+    return {ErrorCode::BadSetting,
+            "no option is called `" + word + "`: the file is " + shell_word(word)};
   const std::string name = word.substr(0, word.find('='));
   std::vector<std::string> names;
   for (const Option& option : all_options())
@@ -75,7 +80,8 @@ Result<Settings> parse_arguments(const Verb& verb, int count, char** arguments, 
     return Error{ErrorCode::BadSetting, std::string(fault.what())};
   }
   if (asks_help) return Settings{};
-  if (!app.remaining().empty()) return unknown_word(verb, app.remaining().front());
+  for (const std::string& word : app.remaining())
+    if (word != "--") return unknown_word(verb, word);  // what follows `--` is no option
 
   // The file gives way to --set, and both to the options themselves.
   Settings first;
