@@ -8,10 +8,14 @@
 // and behind what rests the colour that continues the rest (film/behind.h).
 #include "film/plate.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 #include "film/behind.h"
 #include "film/color.h"
@@ -43,9 +47,25 @@ Ycc cell_ycc(const Grid& grid, std::size_t i) {
   return ycc(0.25f * grid.plane[0][i], 0.25f * grid.plane[1][i], 0.25f * grid.plane[2][i]);
 }
 
+// What `add` makes of 0..count-1, on all threads, into sums of whole numbers: the same for any
+// number of threads. Sum: has += for another.
+template <class Sum, class Add>
+Sum sum_over(std::size_t count, Add add) {
+  tbb::enumerable_thread_specific<Sum> parts;
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { add(i, parts.local()); });
+  Sum sum{};
+  for (const Sum& part : parts) sum += part;
+  return sum;
+}
+
 // 1.4826 x median of |r| over a histogram of quarter code values.
 class Spread {
  public:
+  Spread& operator+=(const Spread& other) {
+    for (std::size_t i = 0; i < 1024; ++i) bins_[i] += other.bins_[i];
+    count_ += other.count_;
+    return *this;
+  }
   void add(double r) {
     const double bin = std::abs(r) * 4;
     ++bins_[bin < 1023 ? static_cast<std::size_t>(bin) : 1023];
@@ -68,6 +88,20 @@ class Spread {
  private:
   std::uint64_t bins_[1024] = {};
   std::uint64_t count_ = 0;
+};
+
+// Of Y, Cb, Cr.
+struct Spreads {
+  Spread of[3];
+  void add(const Ycc& d) {
+    of[0].add(static_cast<double>(d.y));
+    of[1].add(static_cast<double>(d.cb));
+    of[2].add(static_cast<double>(d.cr));
+  }
+  Spreads& operator+=(const Spreads& other) {
+    for (int p = 0; p < 3; ++p) of[p] += other.of[p];
+    return *this;
+  }
 };
 
 struct ScreenColor {
@@ -191,25 +225,27 @@ template <class Admit>
 void find_centres(const std::vector<Grid>& grids, Bare& bare, Admit admit,
                   std::vector<std::uint8_t>& known) {
   const std::size_t cells = grids[0].cells();
-  std::vector<std::uint16_t> values[3];
   known.assign(cells, 1);
   for (auto& centre : bare.centre) centre.assign(cells, 0);
-  for (std::size_t i = 0; i < cells; ++i) {
-    for (auto& v : values) v.clear();
-    const auto admitted = admit(i);
-    for (const Grid& grid : grids)
-      if (admitted(grid))
-        for (int p = 0; p < 3; ++p) values[p].push_back(grid.plane[p][i]);
-    if (values[0].size() * 25 < grids.size() || values[0].empty()) {
-      known[i] = 0;
-      continue;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells, 4096), [&](const auto& range) {
+    std::vector<std::uint16_t> values[3];
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      for (auto& v : values) v.clear();
+      const auto admitted = admit(i);
+      for (const Grid& grid : grids)
+        if (admitted(grid))
+          for (int p = 0; p < 3; ++p) values[p].push_back(grid.plane[p][i]);
+      if (values[0].size() * 25 < grids.size() || values[0].empty()) {
+        known[i] = 0;
+        continue;
+      }
+      const auto middle = static_cast<std::ptrdiff_t>(values[0].size() / 2);
+      for (int p = 0; p < 3; ++p) {
+        std::nth_element(values[p].begin(), values[p].begin() + middle, values[p].end());
+        bare.centre[p][i] = 0.25f * values[p][static_cast<std::size_t>(middle)];
+      }
     }
-    const auto middle = static_cast<std::ptrdiff_t>(values[0].size() / 2);
-    for (int p = 0; p < 3; ++p) {
-      std::nth_element(values[p].begin(), values[p].begin() + middle, values[p].end());
-      bare.centre[p][i] = 0.25f * values[p][static_cast<std::size_t>(middle)];
-    }
-  }
+  });
 }
 
 Ycc from_centre(const Bare& bare, const Grid& grid, std::size_t i) {
@@ -223,21 +259,17 @@ Ycc from_centre(const Bare& bare, const Grid& grid, std::size_t i) {
 // `most`: no larger a sigma is believed. Where the subject covers half of all samples the spread is
 // its own.
 void find_bare(const std::vector<Grid>& grids, const double (&most)[3], Bare& bare) {
-  Spread spread[3];
-  for (const Grid& grid : grids)
-    for (std::size_t i = 0; i < grid.cells(); i += 5) {
-      const Ycc d = from_centre(bare, grid, i);
-      spread[0].add(static_cast<double>(d.y));
-      spread[1].add(static_cast<double>(d.cb));
-      spread[2].add(static_cast<double>(d.cr));
-    }
+  const auto spread = sum_over<Spreads>(grids.size(), [&](std::size_t f, Spreads& sum) {
+    for (std::size_t i = 0; i < grids[f].cells(); i += 5) sum.add(from_centre(bare, grids[f], i));
+  });
   float reach[3];
   for (int p = 0; p < 3; ++p) {
-    bare.sigma[p] = std::min(spread[p].sigma(), most[p]);
+    bare.sigma[p] = std::min(spread.of[p].sigma(), most[p]);
     reach[p] = static_cast<float>(3.5 * bare.sigma[p] + 1);
   }
-  std::uint64_t near = 0;
-  for (const Grid& grid : grids) {
+  bare.in.resize(grids.size());
+  const auto near = sum_over<std::uint64_t>(grids.size(), [&](std::size_t f, std::uint64_t& sum) {
+    const Grid& grid = grids[f];
     Mask mask(grid.width, grid.height);
     for (std::size_t i = 0; i < grid.cells(); ++i) {
       const Ycc d = from_centre(bare, grid, i);
@@ -249,10 +281,10 @@ void find_bare(const std::vector<Grid>& grids, const double (&most)[3], Bare& ba
       if (std::abs(d.y) < std::clamp(reach[0], 12.0f, 24.0f) &&
           std::abs(d.cb) < std::clamp(reach[1], 6.0f, 12.0f) &&
           std::abs(d.cr) < std::clamp(reach[2], 6.0f, 12.0f))
-        ++near;
+        ++sum;
     }
-    bare.in.push_back(erode(mask, 2));
-  }
+    bare.in[f] = erode(mask, 2);
+  });
   bare.steady = static_cast<double>(near) /
                 (static_cast<double>(grids.size()) * static_cast<double>(grids[0].cells()));
 }
@@ -268,22 +300,25 @@ void average_bare(std::span<const Frame> frames, const std::vector<Grid>& grids,
   std::vector<std::uint32_t> luma(frames[0].y.size());
   std::vector<std::uint32_t> blue(cells);
   std::vector<std::uint32_t> red(cells);
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    for (std::size_t i = 0; i < cells; ++i) {
-      if (!bare.in[f].in[i]) continue;
-      ++count[i];
-      for (int p = 0; p < 3; ++p) sums[p][i] += grids[f].plane[p][i];
-      blue[i] += frames[f].cb[i];
-      red[i] += frames[f].cr[i];
-    }
-    for (int y = 0; y < screen.height; ++y) {
-      const std::uint8_t* in = bare.in[f].row(y / 2);
-      for (int x = 0; x < screen.width; ++x) {
-        const std::size_t at = static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x);
-        if (in[x / 2]) luma[at] += frames[f].y[at];
+  tbb::parallel_for(0, grids[0].height, [&](int cy) {
+    const auto begin = static_cast<std::size_t>(cy) * static_cast<std::size_t>(grids[0].width);
+    const auto end = begin + static_cast<std::size_t>(grids[0].width);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!bare.in[f].in[i]) continue;
+        ++count[i];
+        for (int p = 0; p < 3; ++p) sums[p][i] += grids[f].plane[p][i];
+        blue[i] += frames[f].cb[i];
+        red[i] += frames[f].cr[i];
       }
+      const std::uint8_t* in = bare.in[f].row(cy);
+      for (int y = 2 * cy; y < std::min(2 * cy + 2, screen.height); ++y)
+        for (int x = 0; x < screen.width; ++x) {
+          const std::size_t at = static_cast<std::size_t>(y) * row + static_cast<std::size_t>(x);
+          if (in[x / 2]) luma[at] += frames[f].y[at];
+        }
     }
-  }
+  });
   std::size_t hidden = 0;
   Frame& plate = screen.plate;
   plate.resize(screen.width, screen.height);
@@ -350,8 +385,7 @@ void average_bare(std::span<const Frame> frames, const std::vector<Grid>& grids,
 // the subject does not count.
 void measure_noise(std::span<const Frame> frames, const std::vector<Grid>& grids, const Bare& bare,
                    ScreenModel& screen) {
-  Spread spread[3];
-  for (std::size_t f = 0; f < grids.size(); ++f) {
+  const auto spread = sum_over<Spreads>(grids.size(), [&](std::size_t f, Spreads& sum) {
     const Grid& grid = grids[f];
     const Surface drift = detail::fit_drift(screen, frames[f], 9);
     const int step = stride_of(grid, 2);
@@ -366,13 +400,10 @@ void measure_noise(std::span<const Frame> frames, const std::vector<Grid>& grids
         for (int p = 0; p < 3; ++p)
           d[p] =
               0.25f * grid.plane[p][i] - screen.cells[p][i] - static_cast<float>(drift.at(p, u, v));
-        const Ycc r = ycc(d[0], d[1], d[2]);
-        spread[0].add(static_cast<double>(r.y));
-        spread[1].add(static_cast<double>(r.cb));
-        spread[2].add(static_cast<double>(r.cr));
+        sum.add(ycc(d[0], d[1], d[2]));
       }
-  }
-  for (int p = 0; p < 3; ++p) screen.noise[p] = static_cast<float>(spread[p].sigma());
+  });
+  for (int p = 0; p < 3; ++p) screen.noise[p] = static_cast<float>(spread.of[p].sigma());
   screen.threshold = std::clamp(8 * screen.whole_noise(), 9.0f, 24.0f);
 }
 
@@ -480,7 +511,6 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
                 2 * (bare.sigma[1] * bare.sigma[1] + bare.sigma[2] * bare.sigma[2]));
   Mask invented;
   if (detail::look_behind(grids, static_cast<float>(noise), bare.centre, invented)) {
-    bare.in.clear();
     find_bare(grids, kAnySigma, bare);
   }
   if (bare.steady < least_steady)
@@ -549,65 +579,99 @@ void learn_colors(std::span<const Frame> frames, ScreenModel& screen) {
   }
 }
 
+// Histograms of what stands out, of one frame or of all.
+struct SubjectFigures {
+  static constexpr float kKeySteps = 50;  // of v, and of the distance to the plate without a key
+  static constexpr float kDistanceSteps = 200;
+
+  std::vector<std::uint32_t> strengths = std::vector<std::uint32_t>(400);
+  std::vector<std::uint32_t> contrasts = std::vector<std::uint32_t>(512);
+  std::vector<std::uint64_t> colors[3] = {  // sums of four, by contrast
+      std::vector<std::uint64_t>(512), std::vector<std::uint64_t>(512),
+      std::vector<std::uint64_t>(512)};
+  std::uint64_t strength_count = 0, contrast_count = 0;
+  std::vector<int> areas;  // of the largest part of each frame, in any order
+
+  void add_frame(const ScreenModel& screen, const Frame& frame);
+  SubjectFigures& operator+=(const SubjectFigures& other);
+
+ private:
+  void add_strengths(const ScreenModel& screen, const detail::Silhouette& s);
+};
+
+SubjectFigures& SubjectFigures::operator+=(const SubjectFigures& other) {
+  const auto sum = [](auto& to, const auto& from) {
+    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
+  };
+  sum(strengths, other.strengths);
+  sum(contrasts, other.contrasts);
+  for (int p = 0; p < 3; ++p) sum(colors[p], other.colors[p]);
+  strength_count += other.strength_count;
+  contrast_count += other.contrast_count;
+  areas.insert(areas.end(), other.areas.begin(), other.areas.end());
+  return *this;
+}
+
+void SubjectFigures::add_frame(const ScreenModel& screen, const Frame& frame) {
+  detail::Silhouette s;
+  detail::find_silhouette(screen, frame, s);
+  if (s.empty) return;
+  std::vector<int> labels;
+  const int parts = detail::connected_parts(s.mask, labels);
+  std::vector<int> size(static_cast<std::size_t>(parts) + 1);
+  for (const int label : labels) ++size[static_cast<std::size_t>(label)];
+  areas.push_back(*std::max_element(size.begin() + 1, size.end()));
+  const Mask inside = erode(s.mask, 1);
+  for (std::size_t i = 0; i < inside.in.size(); ++i) {
+    if (!inside.in[i]) continue;
+    const auto of = std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1);
+    ++contrasts[of];
+    ++contrast_count;
+    for (std::size_t p = 0; p < 3; ++p) colors[p][of] += s.grid.plane[p][i];
+  }
+  if (screen.kind != KeyKind::Plate) add_strengths(screen, s);
+}
+
+// How strong its colours are against the key.
+void SubjectFigures::add_strengths(const ScreenModel& screen, const detail::Silhouette& s) {
+  const Mask deep = erode(s.mask, 4);
+  std::vector<float> away(deep.in.size());
+  if (screen.key < 0)
+    detail::lanes().distance({s.frame[0].data(), s.frame[1].data(), s.frame[2].data()},
+                             {s.plate[0].data(), s.plate[1].data(), s.plate[2].data()}, away.size(),
+                             away.data());
+  for (std::size_t i = 0; i < deep.in.size(); ++i) {
+    if (!deep.in[i]) continue;
+    if (screen.key < 0) {
+      ++strengths[static_cast<std::size_t>(std::min(away[i] * kDistanceSteps, 399.0f))];
+      ++strength_count;
+      continue;
+    }
+    const float full =
+        detail::key_strength(screen.key, s.plate[0][i], s.plate[1][i], s.plate[2][i]);
+    if (!(full > 0.02f)) continue;
+    const float v =
+        1 - detail::key_strength(screen.key, s.frame[0][i], s.frame[1][i], s.frame[2][i]) / full;
+    ++strengths[static_cast<std::size_t>(std::clamp(v * kKeySteps, 0.0f, 399.0f))];
+    ++strength_count;
+  }
+}
+
 // What the subject's own figures have to say: how strong its colours are against the key, and how
 // large it is.
 void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
   detail::prepare_model(screen);
-  detail::Silhouette s;
-  constexpr float kKeySteps = 50;  // of v, and of the distance to the plate where it has no key
-  constexpr float kDistanceSteps = 200;
-  std::vector<std::uint32_t> strengths(400);
-  std::uint64_t strength_count = 0;
-  std::vector<std::uint32_t> contrasts(512);
-  std::vector<std::uint64_t> colors[3];  // sums of four, by contrast
-  for (auto& sums : colors) sums.resize(contrasts.size());
-  std::uint64_t contrast_count = 0;
-  std::vector<int> areas;
-  std::vector<int> labels;
-  for (const Frame& frame : frames) {
-    detail::find_silhouette(screen, frame, s);
-    if (s.empty) continue;
-    const int parts = detail::connected_parts(s.mask, labels);
-    std::vector<int> size(static_cast<std::size_t>(parts) + 1);
-    for (const int label : labels) ++size[static_cast<std::size_t>(label)];
-    areas.push_back(*std::max_element(size.begin() + 1, size.end()));
-    const Mask inside = erode(s.mask, 1);
-    for (std::size_t i = 0; i < inside.in.size(); ++i) {
-      if (!inside.in[i]) continue;
-      const auto of = std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1);
-      ++contrasts[of];
-      ++contrast_count;
-      for (std::size_t p = 0; p < 3; ++p) colors[p][of] += s.grid.plane[p][i];
-    }
-    if (screen.kind == KeyKind::Plate) continue;
-    const Mask deep = erode(s.mask, 4);
-    std::vector<float> away(deep.in.size());
-    if (screen.key < 0)
-      detail::lanes().distance({s.frame[0].data(), s.frame[1].data(), s.frame[2].data()},
-                               {s.plate[0].data(), s.plate[1].data(), s.plate[2].data()},
-                               away.size(), away.data());
-    for (std::size_t i = 0; i < deep.in.size(); ++i) {
-      if (!deep.in[i]) continue;
-      if (screen.key < 0) {
-        ++strengths[static_cast<std::size_t>(std::min(away[i] * kDistanceSteps, 399.0f))];
-        ++strength_count;
-        continue;
-      }
-      const float full =
-          detail::key_strength(screen.key, s.plate[0][i], s.plate[1][i], s.plate[2][i]);
-      if (!(full > 0.02f)) continue;
-      const float v =
-          1 - detail::key_strength(screen.key, s.frame[0][i], s.frame[1][i], s.frame[2][i]) / full;
-      ++strengths[static_cast<std::size_t>(std::clamp(v * kKeySteps, 0.0f, 399.0f))];
-      ++strength_count;
-    }
-  }
+  auto [strengths, contrasts, colors, strength_count, contrast_count, areas] =
+      sum_over<SubjectFigures>(frames.size(), [&](std::size_t f, SubjectFigures& sum) {
+        sum.add_frame(screen, frames[f]);
+      });
   std::uint64_t seen = 0;
   std::size_t bin = 0;
   while (bin < 399 && 10 * (seen += strengths[bin]) < 9 * strength_count) ++bin;
   if (strength_count > 0)
     screen.key_normaliser =
-        (static_cast<float>(bin) + 0.5f) / (screen.key >= 0 ? kKeySteps : kDistanceSteps);
+        (static_cast<float>(bin) + 0.5f) /
+        (screen.key >= 0 ? SubjectFigures::kKeySteps : SubjectFigures::kDistanceSteps);
   if (screen.key >= 0) screen.key_normaliser = std::max(1.0f, screen.key_normaliser);
   // Half of all cells reach the usual contrast. Before a standing camera it is half of all contrast
   // that does: shadows and reflections are faint, however wide.
@@ -694,7 +758,8 @@ Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfi
   if (asked || (config.kind == KeyKind::Auto && detail::carries_coverage(frames)))
     return detail::coverage_model(frames);
   std::vector<Grid> grids(frames.size());
-  for (std::size_t f = 0; f < frames.size(); ++f) detail::make_grid(frames[f], grids[f]);
+  tbb::parallel_for(std::size_t{0}, frames.size(),
+                    [&](std::size_t f) { detail::make_grid(frames[f], grids[f]); });
 
   if (config.kind != KeyKind::Plate) {
     ScreenColor color;
