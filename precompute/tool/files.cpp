@@ -104,6 +104,9 @@ class TemporaryFile {
   /// Waits until the disk has it.
   Result<void> sync() {
     if (::fsync(descriptor_) != 0) return failed("synced");
+    return close();
+  }
+  Result<void> close() {
     if (::close(std::exchange(descriptor_, -1)) != 0) return failed("closed");
     return {};
   }
@@ -150,6 +153,13 @@ Result<void> write_file(const std::string& path, std::string_view bytes) {
   if (auto synced = file.sync(); !synced) return synced.error();
   if (auto placed = file.rename_into_place(); !placed) return placed.error();
   return sync_folder(parent_of(path));
+}
+
+Result<void> write_scratch_file(const std::string& path, std::string_view bytes) {
+  TemporaryFile file(path);
+  if (auto written = file.write(bytes); !written) return written.error();
+  if (auto closed = file.close(); !closed) return closed.error();
+  return file.rename_into_place();
 }
 
 Result<void> write_files(const std::vector<NamedBytes>& files) {

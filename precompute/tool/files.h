@@ -27,6 +27,10 @@ Result<std::string> read_file(const std::string& path);
 /// Errors: CannotCreate, CannotWrite (also a full disk), naming the path.
 Result<void> write_file(const std::string& path, std::string_view bytes);
 
+/// The same without waiting for the disk, for what carries its own sum and can be made again: whole
+/// when the process is killed, not when the power fails. Errors: those of write_file.
+Result<void> write_scratch_file(const std::string& path, std::string_view bytes);
+
 struct NamedBytes {
   std::string path;
   std::span<const std::uint8_t> bytes;
