@@ -76,6 +76,19 @@ Result<void> read_member(Member& member) {
   return {};
 }
 
+/// The film frame after the last that was read; of a draft up to one more.
+int film_end(const Member& member) { return member.clip->first + member.result.value("frames", 0); }
+
+Result<void> check_events(const Member& member) {
+  const int end = film_end(member);
+  for (const CastEvent& event : member.clip->events)
+    if (event.frame >= end)
+      return Error{ErrorCode::BadContent, event.at + ": events: `" + event.name + "` at frame " +
+                                              std::to_string(event.frame) + ", the last of " +
+                                              member.clip->file + " is " + std::to_string(end - 1)};
+  return {};
+}
+
 /// Clip `index` of `count` in its own folder.
 Result<Member> segment_member(StageRun& run, const CastClip& clip, std::size_t index,
                               std::size_t count) {
@@ -101,6 +114,7 @@ Result<Member> segment_member(StageRun& run, const CastClip& clip, std::size_t i
   const auto outcomes = run_stages(part, 0, 0);
   if (!outcomes) return outcomes.error();
   member.result = outcomes->front().result;
+  if (auto fits = check_events(member); !fits) return fits.error();
   if (auto read = read_member(member); !read) return read.error();
   return member;
 }
@@ -278,6 +292,33 @@ Result<void> write_pictures(StageRun& run, const CastRows& cast) {
 
 // ---- the report ----
 
+/// What of the clip does not come out as the cast says: a range beyond the film, events at frames
+/// that were left out.
+std::vector<std::string> cast_warnings(const Member& member, const CastRows& cast) {
+  std::vector<std::string> out;
+  const CastClip& clip = *member.clip;
+  const int end = film_end(member);
+  if (clip.last != INT_MAX && clip.last >= end)
+    out.push_back("frames = [" + std::to_string(clip.first) + ", " + std::to_string(clip.last) +
+                  "], but the film has " + std::to_string(end) + " frames");
+  for (const CastEvent& event : clip.events) {
+    int shown = -1;
+    for (std::size_t i = 0; i < cast.origins.size(); ++i)
+      if (cast.origins[i].member == &member && cast.rows[i].frame <= event.frame)
+        shown = cast.rows[i].frame;
+    const auto stands_for = [&event](const SampleRow& row) {
+      return row.mirror_of < 0 && row.frame <= event.frame &&
+             event.frame < row.frame + row.duration;
+    };
+    if (std::any_of(member.rows.begin(), member.rows.end(), stands_for)) continue;
+    out.push_back("event `" + event.name + "`: frame " + std::to_string(event.frame) +
+                  " was left out, " +
+                  (shown < 0 ? "and all before it: it never happens"
+                             : "it happens at frame " + std::to_string(shown)));
+  }
+  return out;
+}
+
 double frames_a_second(Rate rate) { return static_cast<double>(rate.numerator) / rate.denominator; }
 
 Json events_json(const CastClip& clip) {
@@ -331,6 +372,8 @@ Json cast_result(const StageRun& run, const std::vector<Member>& members, const 
     out["cast"].push_back(member_json(members[k], k, members.front().rate));
     for (const Json& warning : members[k].result.value("warnings", Json::array()))
       out["warnings"].push_back(members[k].clip->file + ": " + warning.get<std::string>());
+    for (const std::string& warning : cast_warnings(members[k], cast))
+      out["warnings"].push_back(members[k].clip->file + ": " + warning);
   }
   return out;
 }

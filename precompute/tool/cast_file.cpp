@@ -96,7 +96,7 @@ class Table {
       const auto text = entry ? (*entry)["name"].value_exact<std::string>() : std::nullopt;
       fits = frame && text && entry->size() == 2 && *frame >= first && *frame <= last &&
              !text->empty() && fits_tag(*text);
-      if (fits) values.push_back({static_cast<int>(*frame), *text});
+      if (fits) values.push_back({static_cast<int>(*frame), *text, place(entry->source())});
     }
     if (!fits)
       due(*node, name,
@@ -111,13 +111,14 @@ class Table {
     fail(node ? node->source() : table_.source(), what);
   }
   void fail(const toml::source_region& at, const std::string& what) {
-    if (problem_.empty())
-      problem_ = path_ + ":" + std::to_string(at.begin.line) + ":" +
-                 std::to_string(at.begin.column) + ": " + what;
+    if (problem_.empty()) problem_ = place(at) + ": " + what;
   }
   const std::string& problem() const { return problem_; }
 
  private:
+  std::string place(const toml::source_region& at) const {
+    return path_ + ":" + std::to_string(at.begin.line) + ":" + std::to_string(at.begin.column);
+  }
   static std::string listed(const std::vector<std::string>& names) {
     std::string out;
     for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;

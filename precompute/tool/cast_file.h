@@ -36,6 +36,7 @@ namespace vsprite {
 struct CastEvent {
   int frame = 0;
   std::string name;
+  std::string at;  ///< where it stands: `path:line:column`
 };
 
 struct CastClip {

@@ -82,5 +82,26 @@ grep '"late"' "$room/stdout" | grep -vq '"late": 0' && fail "an action came late
 sed 's/frame = 22/frame = "22"/' hero.toml >bad.toml
 expect 3 vsprite build bad.toml
 says "bad.toml:8:"; says "events: a list of frames"; one_sentence
+sed 's/frame = 22/frame = 30/' hero.toml >bad.toml
+expect 3 vsprite segment bad.toml
+says 'bad.toml:8:41: events: `step` at frame 30, the last of walk.mp4 is 29'; one_sentence
+
+# What is shorter than the cast says, and events at frames that were left out, are told.
+film line line.mp4 90
+cat >short.toml <<END
+[[clip]]
+file = "line.mp4"
+frames = [20, 400]
+events = [{ frame = 50, name = "kept" }, { frame = 72, name = "gone" }]
+[[clip]]
+file = "line.mp4"
+frames = [0, 60]
+events = [{ frame = 0, name = "early" }]
+END
+expect 0 vsprite segment short.toml
+prints "line.mp4: frames = [20, 400], but the film has 90 frames"
+prints 'line.mp4: event `gone`: frame 72 was left out, it happens at frame 58'
+prints 'line.mp4: event `early`: frame 0 was left out, and all before it: it never happens'
+[ "$(grep -c warning: stdout)" = 3 ] || fail "more was warned of than is due"
 no_temporaries
 finish
