@@ -251,7 +251,8 @@ Result<std::vector<std::uint8_t>> shadow_of(const Origin& origin, const SampleRo
 }
 
 Result<void> write_pictures(StageRun& run, const CastRows& cast) {
-  const Project& project = run.project;
+  Project& project = run.project;
+  if (auto begun = project.begin_stage("segment"); !begun) return begun;
   std::error_code error;
   fs::remove(project.path("samples.csv"), error);
   fs::remove_all(project.path("sprites"), error);

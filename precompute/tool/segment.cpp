@@ -371,8 +371,7 @@ Result<std::vector<Picture>> cut_chunk(const Project& project,
       shadows->push_back(shade_rows[k]);
       cut.push_back({shadow_path(project, shade_rows[k].sample), std::move(*shades[k])});
     }
-    cut.push_back(
-        {project.sprite_path(extraction.rows[due[k]].sample), std::move(*pictures[k])});
+    cut.push_back({project.sprite_path(extraction.rows[due[k]].sample), std::move(*pictures[k])});
   }
   return cut;
 }
@@ -528,6 +527,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
     return Error{extraction.error().code, run.film + ": " + extraction.error().message};
 
   const std::string table = format_samples(rows_on_floor(*extraction));
+  if (auto begun = run.project.begin_stage("segment"); !begun) return begun.error();
   const auto resumed = store->resume_cutting(hex64(hash_bytes(table)),
                                              [&run] { return clear_sprites(run.project); });
   if (!resumed) return resumed.error();

@@ -377,7 +377,9 @@ Result<StageOutcome> run_stage(StageRun& run, int index) {
   if (!due) return due.error();
   outcome.skipped = !*due;
   if (*due) {
-    if (auto begun = run.project.begin_stage(outcome.name); !begun) return begun.error();
+    // A segmentation may refuse its film: its record goes when the first sprite does.
+    if (index > 0)
+      if (auto begun = run.project.begin_stage(outcome.name); !begun) return begun.error();
     auto result = stage.work(run);
     if (!result) return result.error();
     const auto output = stage.output(run);

@@ -55,6 +55,10 @@ expect 0 vsprite segment two.mp4 --subject 2
 expect 0 vsprite segment two.mp4 --subject largest
 expect 3 vsprite segment two.mp4 --subject 3
 says "--subject 3"; one_sentence
+expect 0 vsprite segment two.mp4 --subject largest
+says "segment: up to date"  # a refusal leaves what stands
+expect 0 vsprite segment two.mp4 --subject 2 --preview 2 -o two.png
+says "the preview shows the largest part of each frame: which is number 2"
 expect 2 vsprite segment two.mp4 --subject both
 film circle circle.mp4 100
 # What stands under the output's name and is none of its kind stays.

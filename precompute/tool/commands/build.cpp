@@ -147,6 +147,9 @@ Result<int> run_preview(const Settings& settings, Console& console) {
   if (auto free = check_output(output, "\x89PNG", "PNG file"); !free) return free.error();
   const auto made = preview_film(settings, places->film, output);
   if (!made) return made.error();
+  if (settings.subject != "only" && settings.subject != "largest")
+    console.remark("the preview shows the largest part of each frame: which is number " +
+                   settings.subject + " is known once the whole film was followed");
   std::string text = "background: " + (*made)["background"].get<std::string>() + "\n";
   text += "  frame  parts  area px^2\n";
   for (const Json& row : (*made)["rows"]) {
