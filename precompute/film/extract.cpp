@@ -436,8 +436,8 @@ Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row) {
   Image image;
   image.width = static_cast<int>(row.width * row.scale + 0.5);
   image.height = static_cast<int>(row.height * row.scale + 0.5);
-  image.rgba.assign(
-      4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height), 0);
+  const auto width = static_cast<std::size_t>(image.width);
+  image.rgba.assign(4 * width * static_cast<std::size_t>(image.height), 0);
   float light[256];
   for (std::size_t code = 0; code < 256; ++code) light[code] = detail::linear_of_sums()[4 * code];
   const auto& codes = detail::encoded_of_steps();
@@ -447,33 +447,41 @@ Image cut_sample(const KeyedFrame& frame, int label, const SampleRow& row) {
   std::vector<Reach> across;
   for (int u = 0; u < image.width; ++u)
     across.push_back(reach_of(row.left, step, u, frame.crop.x, frame.crop.width));
+
+  // Means are separable. For each column of the image red, green, blue and the cover, which lanes
+  // add at once: of one row of the film, summed once though two rows of the image may share it, and
+  // of all rows under one of the image.
+  std::vector<float> of_row(4 * width), of_rows(4 * width);
+  int summed = -1;
+  const auto sum_row = [&](int y) {
+    const std::size_t at = static_cast<std::size_t>(y) * crop_width;
+    const std::uint8_t* labels = frame.labels.data() + at;
+    const std::uint8_t* pixels = frame.straight.rgba.data() + 4 * at;
+    for (std::size_t u = 0; u < width; ++u) {
+      float sum[4] = {};
+      for (int x = across[u].from; x < across[u].to; ++x) {
+        if (labels[x] != label) continue;
+        const std::uint8_t* pixel = pixels + 4 * x;
+        const float weight = share_of(across[u], x) * pixel[3];
+        const float terms[4] = {light[pixel[0]], light[pixel[1]], light[pixel[2]], 1};
+        for (int p = 0; p < 4; ++p) sum[p] += weight * terms[p];
+      }
+      std::copy_n(sum, 4, of_row.data() + 4 * u);
+    }
+    summed = y;
+  };
   for (int v = 0; v < image.height; ++v) {
     const Reach rows = reach_of(row.top, step, v, frame.crop.y, frame.crop.height);
-    for (int u = 0; u < image.width; ++u) {
-      const Reach& columns = across[static_cast<std::size_t>(u)];
-      float sum[4] = {};                   // red, green, blue and the cover: lanes add them at once
-      const std::uint8_t* only = nullptr;  // the pixel, where it is just one
-      for (int y = rows.from; y < rows.to; ++y) {
-        const std::size_t at = static_cast<std::size_t>(y) * crop_width;
-        const std::uint8_t* labels = frame.labels.data() + at;
-        const float share = share_of(rows, y);
-        for (int x = columns.from; x < columns.to; ++x) {
-          if (labels[x] != label) continue;
-          only = frame.straight.rgba.data() + 4 * (at + static_cast<std::size_t>(x));
-          const float weight = share * share_of(columns, x) * only[3];
-          const float terms[4] = {light[only[0]], light[only[1]], light[only[2]], 1};
-          for (int p = 0; p < 4; ++p) sum[p] += weight * terms[p];
-        }
-      }
+    std::fill(of_rows.begin(), of_rows.end(), 0.0f);
+    for (int y = rows.from; y < rows.to; ++y) {
+      if (y != summed) sum_row(y);
+      const float share = share_of(rows, y);
+      for (std::size_t i = 0; i < of_rows.size(); ++i) of_rows[i] += share * of_row[i];
+    }
+    std::uint8_t* out = image.rgba.data() + 4 * static_cast<std::size_t>(v) * width;
+    for (std::size_t u = 0; u < width; ++u, out += 4) {
+      const float* sum = of_rows.data() + 4 * u;
       const float cover = sum[3];
-      if (!(cover > 0)) continue;
-      std::uint8_t* out = image.rgba.data() +
-                          4 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
-                               static_cast<std::size_t>(u));
-      if (row.scale == 1) {
-        std::copy(only, only + 4, out);
-        continue;
-      }
       const auto alpha = static_cast<int>(cover / whole + 0.5f);
       if (alpha == 0) continue;
       out[3] = static_cast<std::uint8_t>(std::min(alpha, 255));
