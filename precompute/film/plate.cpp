@@ -151,6 +151,52 @@ ScreenColor most_frequent_color(const std::vector<Grid>& grids) {
   return color;
 }
 
+// Median luma of the cells of the screen's colour; -1: there are none.
+int level_of(const Grid& grid, const ScreenColor& color) {
+  constexpr double kReach = 6;
+  std::uint64_t luma[256] = {};
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < grid.cells(); i += 7) {
+    const Ycc c = cell_ycc(grid, i);
+    if (std::abs(static_cast<double>(c.cb) - color.cb) > kReach ||
+        std::abs(static_cast<double>(c.cr) - color.cr) > kReach)
+      continue;
+    ++luma[std::clamp(static_cast<int>(c.y + 0.5f), 0, 255)];
+    ++count;
+  }
+  if (count == 0) return -1;
+  std::uint64_t seen = 0;
+  int level = 0;
+  while (2 * (seen += luma[level]) < count) ++level;
+  return level;
+}
+
+// The frames that a surface is fitted to: all, or, where the film has several exposures, those of
+// the most usual one, whose luma `color` then has. The others differ from it by their drift.
+std::vector<const Grid*> usual_frames(const std::vector<Grid>& grids, ScreenColor& color) {
+  constexpr int kSteady = 16;  // code values between the darkest and the lightest
+  std::vector<int> levels(grids.size());
+  tbb::parallel_for(std::size_t{0}, grids.size(),
+                    [&](std::size_t f) { levels[f] = level_of(grids[f], color); });
+  const auto [darkest, lightest] = std::minmax_element(levels.begin(), levels.end());
+  const bool steady = *lightest - *darkest <= kSteady;
+  int usual = 0;
+  std::ptrdiff_t most = 0;
+  const auto near = [](int level) {
+    return [level](int other) { return std::abs(other - level) <= kSteady / 4; };
+  };
+  for (const int level : levels)
+    if (const auto count = std::count_if(levels.begin(), levels.end(), near(level));
+        level >= 0 && count > most)
+      usual = level, most = count;
+  const bool all = steady || 4 * most < static_cast<std::ptrdiff_t>(grids.size());
+  std::vector<const Grid*> chosen;
+  for (std::size_t f = 0; f < grids.size(); ++f)
+    if (all || near(usual)(levels[f])) chosen.push_back(&grids[f]);
+  if (!all) color.y = usual;
+  return chosen;
+}
+
 // A quadratic over the picture for Y, Cb, Cr, and how far bare screen lies from it.
 struct ScreenSurface {
   Surface ycc;
@@ -172,27 +218,27 @@ struct ScreenSurface {
 // Cells between two that are looked at: `least` of a picture of 640 pixels, more of a larger one.
 int stride_of(const Grid& grid, int least) { return std::max(least, least * grid.width / 320); }
 
-ScreenSurface fit_surface(const std::vector<Grid>& grids, const ScreenColor& color) {
+ScreenSurface fit_surface(const std::vector<const Grid*>& grids, const ScreenColor& color) {
   ScreenSurface s;
   s.ycc.coefficient[0][0] = color.y;
   s.ycc.coefficient[1][0] = color.cb;
   s.ycc.coefficient[2][0] = color.cr;
   s.sigma[0] = 14;  // the first reach: 58 in luma, 12 in colour
   s.sigma[1] = s.sigma[2] = 2.5;
-  const int step = stride_of(grids[0], 3);
+  const int step = stride_of(*grids[0], 3);
   for (int round = 0; round < 6; ++round) {
     SurfaceFit fit;
     Spread spread[3];
     std::uint64_t kept = 0;
     std::uint64_t seen = 0;
-    for (const Grid& grid : grids)
-      for (int y = 1; y < grid.height; y += step)
-        for (int x = 1; x < grid.width; x += step) {
+    for (const Grid* grid : grids)
+      for (int y = 1; y < grid->height; y += step)
+        for (int x = 1; x < grid->width; x += step) {
           const Ycc c =
-              cell_ycc(grid, static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width) +
-                                 static_cast<std::size_t>(x));
-          const double u = detail::scaled(x, grid.width);
-          const double v = detail::scaled(y, grid.height);
+              cell_ycc(*grid, static_cast<std::size_t>(y) * static_cast<std::size_t>(grid->width) +
+                                  static_cast<std::size_t>(x));
+          const double u = detail::scaled(x, grid->width);
+          const double v = detail::scaled(y, grid->height);
           ++seen;
           const auto middle = s.at(u, v);
           if (!s.near(c, middle)) continue;
@@ -518,7 +564,7 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
                  "no steady background: no colour fills the picture and " +
                      percent(1 - bare.steady) +
                      " of it differs from its own median over time; due: a screen of one colour or "
-                     "a camera that stands still"};
+                     "a camera that stands still, its exposure locked"};
   average_bare(frames, grids, bare, screen);
   measure_noise(frames, grids, bare, screen);
   measure_color(screen);
@@ -770,7 +816,7 @@ Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfi
     } else {
       color = most_frequent_color(grids);
     }
-    const ScreenSurface surface = fit_surface(grids, color);
+    const ScreenSurface surface = fit_surface(usual_frames(grids, color), color);
     float rgb[3];
     surface_color(surface, rgb);
     const bool keyed = choose_key(rgb) >= 0 && surface.share > 0.3 && surface.sigma[0] < 14;

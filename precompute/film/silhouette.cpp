@@ -111,12 +111,38 @@ std::vector<DriftSample> sample_drift(const ScreenModel& screen, const Frame& fr
 
 }  // namespace
 
+// None, or, where less than a quarter of the samples lies within `reach` of none and more of their
+// median, that: another exposure.
+Surface first_drift(const std::vector<DriftSample>& samples, float reach) {
+  const auto count_near = [&](const float(&middle)[3]) {
+    return std::count_if(samples.begin(), samples.end(), [&](const DriftSample& s) {
+      return distance_squared(s.residual[0] - middle[0], s.residual[1] - middle[1],
+                              s.residual[2] - middle[2]) < reach * reach;
+    });
+  };
+  Surface drift;
+  const auto still = count_near({0, 0, 0});
+  if (samples.empty() || 4 * still >= static_cast<std::ptrdiff_t>(samples.size())) return drift;
+  float middle[3];
+  std::vector<float> values(samples.size());
+  for (int p = 0; p < 3; ++p) {
+    std::transform(samples.begin(), samples.end(), values.begin(),
+                   [p](const DriftSample& s) { return s.residual[p]; });
+    const auto half = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), half, values.end());
+    middle[p] = *half;
+  }
+  if (count_near(middle) > still)
+    for (int p = 0; p < 3; ++p) drift.coefficient[p][0] = static_cast<double>(middle[p]);
+  return drift;
+}
+
 // The residual of the sure background, some thousand cells of it, in four rounds. Each round
 // believes what lies near the round before.
 Surface fit_drift(const ScreenModel& screen, const Frame& frame, float reach) {
-  Surface drift;
   const int step = std::max(4, frame.cell_width() / 32);
   const auto samples = sample_drift(screen, frame, step);
+  Surface drift = first_drift(samples, 4 * reach);
   std::vector<std::uint8_t> believed(samples.size()), before;
   for (const float limit : {4 * reach, 2 * reach, reach, reach}) {
     for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -95,7 +95,8 @@ double band_error(const KeyedFrame& keyed, const SyntheticFilm& film, const Disc
 // Half of the film is lit otherwise, in one step: the plate is an average of both, and neither half
 // is keyed much worse than a film that is lit as one.
 TEST(Matte, FollowsAStepOfExposureAndOfWhiteBalance) {
-  const double gains[][3] = {{1.15, 1.15, 1.15}, {0.85, 0.85, 0.85}, {1.08, 1, 0.92}};
+  const double gains[][3] = {{1.15, 1.15, 1.15}, {0.85, 0.85, 0.85}, {1.08, 1, 0.92},
+                             {1.7, 1.7, 1.7},    {0.55, 0.55, 0.55}, {1.3, 1, 0.75}};
   const double plain = band_error(Keyer(scene().screen, {}).key(scene().frames[12], nullptr),
                                   scene().film, scene().discs[12]);
   for (const auto& gain : gains) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "film/silhouette.h"
 #include "support/synthetic_film.h"
 
 namespace vsprite {
@@ -52,6 +53,20 @@ TEST(Plate, FindsTheUnevenBlueScreen) {
   EXPECT_EQ(screen->kind, KeyKind::Color);
   EXPECT_EQ(screen->key, 2) << screen->reason;
   EXPECT_LT(mean_plate_error(scene, *screen), 0.6);
+}
+
+// A phone that lets more light in: what lies between two exposures is neither's screen.
+TEST(Plate, IsThatOfTheMostUsualExposure) {
+  const SyntheticFilm scene;
+  std::vector<Frame> frames = crossing(scene, 20);
+  for (std::size_t f = 12; f < frames.size(); ++f)
+    for (std::uint8_t& y : frames[f].y) y = static_cast<std::uint8_t>(std::min(y + 34, 235));
+  const auto screen = measure_screen(frames, {});
+  ASSERT_TRUE(screen) << screen.error().message;
+  EXPECT_EQ(screen->kind, KeyKind::Color);
+  EXPECT_LT(mean_plate_error(scene, *screen), 0.8);
+  const auto drift = detail::fit_drift(*screen, frames.back(), screen->threshold);
+  for (int p = 0; p < 3; ++p) EXPECT_NEAR(drift.at(p, 0, 0), 34 * 255.0 / 219, 1.5);
 }
 
 // The prior of the screen's colour: a plain temporal median would show the subject.
