@@ -23,6 +23,10 @@ constexpr double kStillShift = 1.5;    // px that its centre may wander meanwhil
 constexpr double kStillArea = 1.15;    // and its area
 constexpr double kBody = 0.3;          // of the usual area: a part that can hide the subject
 constexpr double kHiddenSeconds = 10;  // longer than this no part covers the subject
+constexpr double kTrust = 0.3;         // of a frame's motion in the velocity of a part
+constexpr int kCoast = 15;             // frames that a part out of sight moves on as it did
+constexpr int kNearBorder = 4;         // who left is looked for as far off as after these frames
+constexpr int kForget = 60;            // frames that another part out of sight is remembered
 
 using detail::distance;
 using detail::median;
@@ -30,6 +34,13 @@ using detail::median;
 double longer_side(const Blob& blob) { return std::max(blob.box.width, blob.box.height); }
 
 double unlike(double a, double b) { return a > b ? a / b : b / a; }
+
+// Pixels between two boxes; 0 where they meet.
+int gap(const Rect& a, const Rect& b) {
+  const int x = std::max({a.x - (b.x + b.width), b.x - (a.x + a.width), 0});
+  const int y = std::max({a.y - (b.y + b.height), b.y - (a.y + a.height), 0});
+  return std::max(x, y);
+}
 
 std::string at_text(const Blob& blob) {
   return "(" + std::to_string(static_cast<int>(blob.anchor_x)) + ", " +
@@ -133,26 +144,103 @@ void follow_largest(std::span<const FrameSummary> frames, Track& track) {
   }
 }
 
-// From the frame in which it was pointed at, both ways: the nearest part of like size. A subject
-// out of sight is looked for farther off the longer it is gone.
+// One of several that are followed at once, so that none is taken for another.
+struct Mover {
+  Blob alone;             // as it was last seen by itself; the anchor moves on while it is not
+  const Blob* seen;       // the part that it was last seen in
+  double vx = 0, vy = 0;  // px a frame
+  int lost = 0;           // frames since it was last seen,
+  int mixed = 0;          // or since it was last seen by itself
+};
+
+// Steps a frame: `part` is what it is seen in, perhaps together with others.
+void move_on(Mover& mover, const Blob* part, bool by_itself) {
+  Blob& alone = mover.alone;
+  if (part && by_itself) {
+    const double share = mover.mixed > 0 ? 0 : kTrust;
+    mover.vx += share * (part->anchor_x - alone.anchor_x - mover.vx);
+    mover.vy += share * (part->anchor_y - alone.anchor_y - mover.vy);
+    alone = *part;
+    mover.mixed = 0;
+  } else {
+    const bool coasts = ++mover.mixed <= kCoast;
+    alone.anchor_x += coasts ? mover.vx : part ? part->anchor_x - mover.seen->anchor_x : 0;
+    alone.anchor_y += coasts ? mover.vy : part ? part->anchor_y - mover.seen->anchor_y : 0;
+  }
+  mover.lost = part ? 0 : mover.lost + 1;
+  if (part) mover.seen = part;
+}
+
+// The part of each mover (null: out of sight): the likest pairs of mover and part first; then who
+// is out of sight is in what swelled at its place, and for a while wholly before or behind it.
+std::vector<const Blob*> seen_in(const std::vector<Mover>& movers,
+                                 const std::vector<const Blob*>& parts, const Track& track) {
+  struct Pair {
+    double cost;
+    std::size_t mover;
+    const Blob* part;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t m = 0; m < movers.size(); ++m) {
+    const Mover& mover = movers[m];
+    // Out of sight it is looked for farther off the longer it is gone; over the border, near there.
+    const int most = mover.seen->touches_border ? kNearBorder : 20;
+    const double reach = track.body * (1 + 0.5 * std::min(mover.lost, most));
+    const double due = m == 0 ? track.usual_area : mover.alone.area;
+    for (const Blob* part : parts) {
+      if (unlike(part->area, due) > kAreaJump || distance(*part, *mover.seen) > reach) continue;
+      const double x = part->anchor_x - mover.alone.anchor_x - mover.vx;
+      const double y = part->anchor_y - mover.alone.anchor_y - mover.vy;
+      pairs.push_back({std::hypot(x, y) * unlike(part->area, mover.alone.area), m, part});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.cost < b.cost; });
+  std::vector<const Blob*> seen(movers.size());
+  for (const Pair& pair : pairs)
+    if (!seen[pair.mover] && std::find(seen.begin(), seen.end(), pair.part) == seen.end())
+      seen[pair.mover] = pair.part;
+  const auto own = seen;
+  for (std::size_t m = 0; m < movers.size(); ++m)
+    for (std::size_t o = 0; o < movers.size() && !seen[m]; ++o) {
+      if (!own[o] || gap(own[o]->box, movers[m].seen->box) > 0) continue;
+      const bool still_in = movers[m].seen == movers[o].seen && movers[m].mixed <= kCoast;
+      if (still_in || own[o]->area > kSwell * movers[o].alone.area) seen[m] = own[o];
+    }
+  return seen;
+}
+
+// From the frame in which it was pointed at, both ways, as are all others of like size: a part that
+// was there beside it is never taken for it.
 void follow_pointed(std::span<const FrameSummary> frames, std::size_t start, const Blob& seed,
                     int step, Track& track) {
-  const Blob* last = &seed;
-  int lost = 0;
+  std::vector<Mover> movers = {{.alone = seed, .seen = &seed}};  // the first one is the subject
   for (auto f = static_cast<std::ptrdiff_t>(start);
        f >= 0 && f < static_cast<std::ptrdiff_t>(frames.size()); f += step) {
     const auto at = static_cast<std::size_t>(f);
-    const double reach = track.body * (1 + 0.5 * std::min(lost, 20));
-    const Blob* choice = nullptr;
+    std::vector<const Blob*> parts;
     for (std::size_t b = 0; b < frames[at].blobs.size(); ++b) {
       const Blob& blob = frames[at].blobs[b];
-      if (lies(track.still, at, b) || unlike(blob.area, track.usual_area) > kAreaJump) continue;
-      if (distance(blob, *last) > reach) continue;
-      if (!choice || distance(blob, *last) < distance(*choice, *last)) choice = &blob;
+      if (!lies(track.still, at, b) && kAreaJump * blob.area > track.usual_area)
+        parts.push_back(&blob);
     }
-    track.blob[at] = choice;
-    lost = choice ? 0 : lost + 1;
-    if (choice) last = choice;
+    const auto seen = seen_in(movers, parts, track);
+    const auto by_itself = [&](std::size_t m) {
+      return std::count(seen.begin(), seen.end(), seen[m]) == 1;
+    };
+    for (std::size_t m = 0; m < movers.size(); ++m) move_on(movers[m], seen[m], by_itself(m));
+    // One before the other, and no telling which: the subject is not to be seen.
+    const bool covered = seen[0] && !by_itself(0) && seen[0]->area <= kSwell * movers[0].alone.area;
+    track.blob[at] = covered ? nullptr : seen[0];
+    // Who comes while the subject is out of sight may be the subject, unless that left elsewhere.
+    const Mover& subject = movers[0];
+    if (subject.lost == 0 || (subject.seen->touches_border && subject.lost > kNearBorder))
+      for (const Blob* part : parts)
+        if (std::find(seen.begin(), seen.end(), part) == seen.end())
+          movers.push_back({.alone = *part, .seen = part});
+    movers.erase(std::remove_if(movers.begin() + 1, movers.end(),
+                                [](const Mover& m) { return m.lost > kForget; }),
+                 movers.end());
   }
 }
 
@@ -168,13 +256,6 @@ void measure_body(Track& track) {
 // Pixels between a box and the nearest border of the film.
 int margin(const Rect& box, int width, int height) {
   return std::min({box.x, box.y, width - (box.x + box.width), height - (box.y + box.height)});
-}
-
-// Pixels between two boxes; 0 where they meet.
-int gap(const Rect& a, const Rect& b) {
-  const int x = std::max({a.x - (b.x + b.width), b.x - (a.x + a.width), 0});
-  const int y = std::max({a.y - (b.y + b.height), b.y - (a.y + a.height), 0});
-  return std::max(x, y);
 }
 
 // What is near the subject in one frame and gone into it in the next. What vanishes elsewhere has

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "film/extract.h"
@@ -174,6 +175,85 @@ TEST(Subject, OneOfSeveralIsFollowedByItsNumber) {
   ASSERT_FALSE(third);
   EXPECT_NE(third.error().message.find("--subject 3: the film shows 2"), std::string::npos);
   EXPECT_EQ(find_rivals(walk(40), 30).position, -1);
+}
+
+// The smaller one, number 2, leaves to the right while the other one swims about; a third one comes
+// in from the left and goes again; then number 2 comes back where it left.
+TEST(Subject, TheOneThatLeftIsGoneUntilItIsBack) {
+  std::vector<FrameSummary> frames;
+  const auto other_x = [](int i) { return 300 + 100 * std::sin(0.05 * i); };
+  const auto x = [](int i) { return i < 100 ? 400 + 4.0 * i : 660 - 4.0 * (i - 160); };
+  const auto is_there = [&](int i) { return x(i) < 640; };
+  for (int i = 0; i < 220; ++i) {
+    FrameSummary frame{i, {}, 5.0};
+    if (i % 50 != 7) add(frame, blob_at(other_x(i), 160, 44, 40));  // one frame in 50 without it
+    if (is_there(i)) add(frame, blob_at(x(i), 240));
+    if (i >= 75 && i < 155) add(frame, blob_at(10 + 4 * std::min(i - 75, 155 - i), 380));
+    frames.push_back(frame);
+  }
+  for (int number : {1, 2}) {
+    const Track track = follow(frames, number);
+    for (int i = 0; i < 220; ++i) {
+      const Blob* blob = track.blob[static_cast<std::size_t>(i)];
+      const bool due = number == 1 ? i % 50 != 7 : is_there(i);
+      ASSERT_EQ(blob != nullptr, due) << number << " in frame " << i;
+      if (due) {
+        EXPECT_EQ(blob->anchor_y, number == 1 ? 160 : 240) << number << " in frame " << i;
+      }
+    }
+    EXPECT_EQ(track.fate[100], number == 1 ? Fate::Kept : Fate::Empty);
+  }
+}
+
+// Two go past each other, one part while they touch: each goes on as it came. The same where they
+// stay together for `stay` frames and drift.
+TEST(Subject, EachGoesOnAsItCameWhereTwoMeetAndPart) {
+  for (int stay : {0, 90}) {
+    std::vector<FrameSummary> frames;
+    const auto at = [&](int i, double sign) {
+      const int steps = i < 55 ? i : std::max(55, i - stay);
+      return 320 + std::clamp(i - 65, 0, std::max(stay - 20, 0)) - sign * (210 - 4.0 * steps);
+    };
+    const auto apart = [&](int i) { return std::abs(at(i, 1) - at(i, -1)) > 42; };
+    for (int i = 0; i < 100 + stay; ++i) {
+      FrameSummary frame{i, {}, 5.0};
+      const double one = at(i, 1), two = at(i, -1);
+      if (apart(i)) {
+        add(frame, blob_at(one, 242, 42, 40));
+        add(frame, blob_at(two, 240));
+      } else {
+        const int wide = 42 + static_cast<int>(std::abs(one - two));
+        add(frame, blob_at(0.5 * (one + two), 241, wide, 42));
+      }
+      frames.push_back(frame);
+    }
+    for (int number : {1, 2}) {
+      const Track track = follow(frames, number);
+      for (int i = 0; i < 100 + stay; ++i) {
+        const Blob* blob = track.blob[static_cast<std::size_t>(i)];
+        const Fate fate = track.fate[static_cast<std::size_t>(i)];
+        ASSERT_EQ(fate == Fate::Kept, apart(i)) << number << " in frame " << i;
+        if (!apart(i)) continue;
+        ASSERT_TRUE(blob) << number << " in frame " << i;
+        EXPECT_EQ(blob->anchor_y, number == 1 ? 242 : 240) << number << " in frame " << i;
+      }
+    }
+  }
+}
+
+// Number 2 is out of sight for a while, nowhere near the border, and comes out elsewhere.
+TEST(Subject, TheOneOfSeveralThatWasHiddenIsFoundAgain) {
+  auto frames = pair_of_walkers();
+  for (std::size_t f = 40; f < 50; ++f) frames[f].blobs.pop_back();
+  for (std::size_t f = 50; f < 100; ++f) frames[f].blobs[1].anchor_x -= 110;
+  const Track track = follow(frames, 2);
+  for (std::size_t f = 0; f < 100; ++f) {
+    const bool seen = f < 40 || f >= 50;
+    ASSERT_EQ(track.blob[f] != nullptr, seen) << f;
+    if (seen) {
+      EXPECT_GT(track.blob[f]->anchor_y, 200) << f;
+    }
+  }
 }
 
 TEST(Extract, AFrameThatTheCameraLeftOutIsTimeNotSpeed) {
