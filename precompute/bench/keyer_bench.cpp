@@ -11,8 +11,7 @@
 //   chosen2  a ball of fur with a veil before the same screens: looked at since, so chosen with
 //   chosen3  a dragonfly and a long-haired animal before 12 other screens: looked at since, too
 //   chosen4  a white bird, a puppet in a dark cloak and a jellyfish before 12 plain screens without
-//   a
-//            colour: chosen with
+//            a colour: chosen with
 //   unseen2  a seed head and a dancer in a skirt of net, 12 others again: no choice has seen them
 //   decision grey parts read as opaque or as translucent, on the fish and on a grey mouse
 //   temporal whether mixing with the neighbours in time would lower the flicker

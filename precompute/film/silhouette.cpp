@@ -333,7 +333,8 @@ void look_closely(const ScreenModel& screen, const Frame& frame, Silhouette& s) 
 // within three cells of what stands out as the subject does. Before a plate that is like it they
 // count only beside that, and no shadow or reflection stands out by more than such a plate does.
 void drop_faint(const ScreenModel& screen, Silhouette& s) {
-  const float least = std::max(2 * screen.threshold, 0.2f * screen.subject_contrast);
+  const float floor = screen.kind == KeyKind::Color ? 1.3f : 2.0f;  // plain screens are quieter
+  const float least = std::max(floor * screen.threshold, 0.2f * screen.subject_contrast);
   const auto above = [&s](float contrast) {
     Mask mask(s.mask.width, s.mask.height);
     lanes().above(s.contrast.data(), contrast, mask.in.size(), mask.in.data());
