@@ -13,12 +13,16 @@
 namespace vsprite {
 namespace {
 
-constexpr int kSmallWidth = 240;       // px, width of the pictures that are compared
-constexpr double kTexture = 4;         // mean square gradient, the weaker direction, that tells
-constexpr double kRepeatRatio = 0.25;  // of the run's median difference: a repeated frame
-constexpr double kMovingSize = 0.25;   // of the subject's size, a second: it moves
-constexpr double kLeastBare = 0.05;    // of the picture that two frames must share
-constexpr double kLikeSize = 0.4;      // a second part this large makes several
+constexpr int kSmallWidth = 240;          // px, width of the pictures that are compared
+constexpr double kTexture = 4;            // mean square gradient, the weaker direction, that tells
+constexpr double kRepeatRatio = 0.25;     // of the run's median difference: a repeated frame
+constexpr double kMovingSize = 0.25;      // of the subject's size, a second: it moves
+constexpr double kLeastBare = 0.05;       // of the picture that two frames must share
+constexpr int kNearBlack = 8, kFlat = 3;  // code values: of a bar above black, and within it
+constexpr int kLit = 12;                  // code values off a bar: of the picture beside it
+constexpr int kRinging = 6;               // px beside the step that a codec makes neither
+constexpr double kAlongSide = 0.9;        // share of the side along which the picture begins
+constexpr double kLikeSize = 0.4;         // a second part this large makes several
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -149,7 +153,93 @@ double difference(const Frame& a, const Frame& b, const Rect& box) {
   return sum / std::max(box.width * box.height, 1);
 }
 
+// ---- bars ----
+
+/// A side of a film: its lines, counted inwards, are rows or columns.
+struct Side {
+  bool rows, far;
+  int begin, end;  // of each line
+};
+
+// Of pixel `k` of a line: by how many code values it is off the grey of brightness `black`.
+int off_black(const Frame& frame, const Side& side, int line, int k, int black) {
+  if (side.far) line = (side.rows ? frame.height : frame.width) - 1 - line;
+  const int x = side.rows ? k : line, y = side.rows ? line : k;
+  const std::size_t cell = at(x / 2, y / 2, frame.cell_width());
+  return std::max({std::abs(frame.y[at(x, y, frame.width)] - black), std::abs(frame.cb[cell] - 128),
+                   std::abs(frame.cr[cell] - 128)});
+}
+
+int black_lines(std::span<const Frame> frames, const Side& side, int black) {
+  const int most = (side.rows ? frames[0].height : frames[0].width) / 2;
+  int line = 0;
+  const auto is_black = [&](const Frame& frame) {
+    for (int k = side.begin; k < side.end; ++k)
+      if (off_black(frame, side, line, k, black) > kFlat) return false;
+    return true;
+  };
+  while (line < most && std::all_of(frames.begin(), frames.end(), is_black)) ++line;
+  return line;
+}
+
+bool picture_begins(std::span<const Frame> frames, const Side& side, int line, int black) {
+  std::vector<double> shares;
+  for (const Frame& frame : frames) {
+    int lit = 0;
+    for (int k = side.begin; k < side.end; ++k)
+      lit += off_black(frame, side, line, k, black) > kLit;
+    shares.push_back(static_cast<double>(lit) / (side.end - side.begin));
+  }
+  return median(std::move(shares)) >= kAlongSide;
+}
+
 }  // namespace
+
+std::string Bars::text() const {
+  std::string sides;
+  const auto add = [&sides](const char* side, int width) {
+    if (width > 0)
+      sides += std::string(sides.empty() ? "" : ", ") + side + " " + std::to_string(width) + " px";
+  };
+  add("top", top), add("bottom", bottom), add("left", left), add("right", right);
+  return "black bars (" + sides + ")";
+}
+
+std::string Bars::crop(int width, int height) const {
+  const auto within = [](int bar) { return bar > 0 ? (bar + 3) / 2 * 2 : 0; };
+  const auto rest = [&within](int length, int near, int far) {
+    return std::to_string((length - within(near) - within(far)) / 2 * 2);
+  };
+  return "crop=" + rest(width, left, right) + ":" + rest(height, top, bottom) + ":" +
+         std::to_string(within(left)) + ":" + std::to_string(within(top));
+}
+
+Bars find_bars(std::span<const Frame> frames) {
+  if (frames.empty()) return {};
+  const Frame& first = frames[0];
+  const int black = first.y[0], w = first.width, h = first.height;
+  if (black > (first.coding.full_range ? 0 : 16) + kNearBlack) return {};
+  Bars bars;
+  bars.top = black_lines(frames, {true, false, 0, w}, black);
+  bars.bottom = black_lines(frames, {true, true, 0, w}, black);
+  const int begin = bars.top, end = h - bars.bottom;
+  if (begin >= end) return {};
+  bars.left = black_lines(frames, {false, false, begin, end}, black);
+  bars.right = black_lines(frames, {false, true, begin, end}, black);
+  const int from = bars.left, to = w - bars.right;
+  if (from >= to) return {};
+  const auto check = [&](int& bar, const Side& side) {
+    const int most = std::min(bar + kRinging, side.rows ? h : w);
+    if (bar < 2) bar = most;
+    while (bar < most && !picture_begins(frames, side, bar, black)) ++bar;
+    if (bar == most) bar = 0;
+  };
+  check(bars.top, {true, false, from, to});
+  check(bars.bottom, {true, true, from, to});
+  check(bars.left, {false, false, begin, end});
+  check(bars.right, {false, true, begin, end});
+  return bars;
+}
 
 double hole_share(const KeyedFrame& keyed, const Blob& blob) {
   const int w = blob.box.width + 2, h = blob.box.height + 2;

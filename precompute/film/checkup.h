@@ -7,6 +7,7 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "film/matte.h"
@@ -17,6 +18,20 @@ namespace vsprite {
 
 /// The share of a part that shows as holes, 0..1: what the outside does not reach, inside its box.
 double hole_share(const KeyedFrame& keyed, const Blob& blob);
+
+/// Black bars about the picture, px; 0: none on that side.
+struct Bars {
+  int top = 0, bottom = 0, left = 0, right = 0;
+  bool any() const noexcept { return top + bottom + left + right > 0; }
+  /// "black bars (top 20 px, bottom 20 px)".
+  std::string text() const;
+  /// Frames of `width` x `height` without them and the two pixels beside them, in even numbers, as
+  /// ffmpeg's filter says it: "crop=640:436:0:22".
+  std::string crop(int width, int height) const;
+};
+/// Lines of all frames that are flat and black, where the picture beside them begins along the
+/// whole side: a subject before black has none. `frames`: of one size.
+Bars find_bars(std::span<const Frame> frames);
 
 /// Consecutive frames from somewhere in the film, and what the keyer made of them.
 struct Burst {

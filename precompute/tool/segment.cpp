@@ -448,12 +448,22 @@ std::string source_name(const std::string& path) {
   return (film.has_filename() ? film : film.parent_path()).filename().string();
 }
 
+/// Black bars, and what to do about them; nothing where there are none.
+std::string bars_text(std::span<const Frame> sampled, const FilmInfo& info) {
+  const Bars bars = find_bars(sampled);
+  if (!bars.any()) return {};
+  return bars.text() + " are taken for a part of the film; due: ffmpeg -i FILM -vf " +
+         bars.crop(info.width, info.height) + " out.mp4";
+}
+
 /// What a person ought to know of the film before relying on its sprites; `holes`: the share of the
 /// subject that shows as such.
 std::vector<std::string> warnings_of(const FilmInfo& info, const ScreenModel& screen,
-                                     const MatteConfig& matte, double holes) {
+                                     const MatteConfig& matte, const std::string& bars,
+                                     double holes) {
   constexpr double kManyHoles = 0.03;
   std::vector<std::string> out;
+  if (!bars.empty()) out.push_back(bars);
   if (info.transfer != Transfer::Sdr)
     out.push_back(std::string(info.transfer == Transfer::Hlg ? "HLG" : "PQ") +
                   " is mapped to plain video by a fixed curve");
@@ -498,7 +508,11 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   if (!sampled) return sampled.error();
   report(run, kSampled);
   const auto screen = measure_screen(*sampled, *key);
-  if (!screen) return Error{screen.error().code, run.film + ": " + screen.error().message};
+  const std::string bars = bars_text(*sampled, info);
+  const auto refused = [&bars](const Error& error, const std::string& film) {
+    return Error{error.code, film + error.message + (bars.empty() ? "" : "; " + bars)};
+  };
+  if (!screen) return refused(screen.error(), run.film + ": ");
   if (run.listener.note) run.listener.note("background: " + screen->reason);
 
   const auto store = KeyedStore::open(run.project, origin);
@@ -521,10 +535,9 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   const double fps = static_cast<double>(info.fps_numerator) / info.fps_denominator;
   if (config.subject.number == SubjectChoice::kOnly)
     if (auto single = refuse_rivals(run, *store, info, fps / config.stride, *summaries); !single)
-      return single.error();
+      return refused(single.error(), "");
   const auto extraction = extract(*summaries, fps, name, config);
-  if (!extraction)
-    return Error{extraction.error().code, run.film + ": " + extraction.error().message};
+  if (!extraction) return refused(extraction.error(), run.film + ": ");
 
   const std::string table = format_samples(rows_on_floor(*extraction));
   if (auto begun = run.project.begin_stage("segment"); !begun) return begun.error();
@@ -541,7 +554,7 @@ Result<Json> segment_film(StageRun& run, const std::string& origin) {
   Json result = segment_result(name, info, *screen, *extraction, stride_of(run.settings));
   result["surplus"] = reader->surplus();
   result["dropped"] = *dropped;
-  result["warnings"] = warnings_of(info, *screen, *matte, *holes);
+  result["warnings"] = warnings_of(info, *screen, *matte, bars, *holes);
   if (const auto& floor = extraction->floor) {
     result["floor"] = {{"horizon", floor->horizon},
                        {"ground_line", floor->line},

@@ -85,6 +85,23 @@ expect 0 vsprite segment circle.mp4
 grep -q 'warning: ' "$room/stdout" && fail "a warning of a film that is as due"
 expect 0 vsprite segment fields.mp4 --json
 is_json /warnings/0
+# Black bars are named, with the way to be rid of them; a subject before black has none.
+ffmpeg -nostdin -v error -i circle.mp4 -vf pad=200:160:20:16:black bars.mp4 || fail "ffmpeg"
+expect 3 vsprite segment bars.mp4
+says "black bars (top 16 px, bottom 24 px, left 20 px, right 20 px)"; says "due: ffmpeg -i FILM -vf crop="; one_sentence
+crop=$(grep -o 'crop=[0-9:]*' "$room/stderr")
+expect 0 vsprite doctor bars.mp4
+prints "warning: bars.mp4: black bars (top 16 px, bottom 24 px, left 20 px, right 20 px)"; prints "-> ffmpeg -i bars.mp4 -vf $crop out.mp4"
+ffmpeg -nostdin -v error -i bars.mp4 -vf "$crop" cropped.mp4 || fail "ffmpeg"
+expect 0 vsprite segment cropped.mp4
+grep -q 'warning: ' "$room/stdout" && fail "a warning of a film that was cropped as told"
+ffmpeg -nostdin -v error -i circle.mp4 -vf pad=160:150:0:16:black wide.mp4 || fail "ffmpeg"
+expect 0 vsprite segment wide.mp4
+prints "warning: black bars (top 16 px, bottom 14 px)"
+ffmpeg -nostdin -v error -f lavfi -i color=black:s=160x120:r=25:d=4 \
+  -vf "geq=lum='if(lt(abs(X-80-20*sin(T*2)),50)*gt(Y,50),200,16)':cb=128:cr=128" black.mp4 || fail "ffmpeg"
+expect 0 vsprite doctor black.mp4
+grep -q "black bars" stdout && fail "a subject before black is taken for a picture between bars"
 head -c $(($(stat -c %s circle.mp4) / 2)) circle.mp4 >short.mp4
 expect 3 vsprite build short.mp4
 says "short.mp4"; one_sentence

@@ -294,6 +294,11 @@ void check_film(const Settings& settings, const std::string& path, Findings& fin
   p.seconds = p.info.counted_frames / p.fps;
   const auto sampled = sample_frames(source_of(settings, path), key->sample_count);
   if (!sampled) return broken(sampled.error(), kConvert);
+  if (const Bars bars = find_bars(*sampled); bars.any())
+    findings.push_back({"bars", kWarning,
+                        path + ": " + bars.text() + " are taken for a part of the film",
+                        "ffmpeg -i " + shell_word(path) + " -vf " +
+                            bars.crop(p.info.width, p.info.height) + " out.mp4"});
   auto screen = measure_screen(*sampled, *key);
   if (!screen) {
     findings.push_back(film_verdict(p));
