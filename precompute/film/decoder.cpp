@@ -148,9 +148,7 @@ class Choice {
  private:
   static constexpr int kLeastKeyFrames = 24;
   static constexpr int kReordered = 6;  // packets that may stand before an earlier frame's
-  bool is_whole_range() const {
-    return mode_ == Selection::Every || mode_ == Selection::Sought;
-  }
+  bool is_whole_range() const { return mode_ == Selection::Every || mode_ == Selection::Sought; }
   // The last key frame that is shown no later than the first frame wanted; what is shown before it
   // may lack what it refers to.
   void find_start() {
@@ -236,8 +234,11 @@ void put_text(char (&to)[N], const std::string& text) {
   std::strncpy(to, text.c_str(), N - 1);
 }
 
-void decode_pictures(const Channel& channel, const FilmSource& source,
-                     const Selection& selection) {
+std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
+void decode_pictures(const Channel& channel, const FilmSource& source, const Selection& selection) {
   const int out = channel.socket;
   Hello hello;
   const auto pictures = find_pictures(source.path);
@@ -255,7 +256,8 @@ void decode_pictures(const Channel& channel, const FilmSource& source,
   std::optional<Sender> sender;
   for (int i = source.first; i < std::min(count, source.end); ++i) {
     if (!chosen[static_cast<std::size_t>(i)]) continue;
-    const auto picture = read_png((*pictures)[static_cast<std::size_t>(i)]);
+    const std::string& name = (*pictures)[static_cast<std::size_t>(i)];
+    auto picture = read_png(name);
     if (!picture && picture.error().code == ErrorCode::OutOfMemory) throw std::bad_alloc();
     if (hello.kind == Kind::NoFilm) {
       if (!picture) {
@@ -273,6 +275,10 @@ void decode_pictures(const Channel& channel, const FilmSource& source,
       send(out, &hello, sizeof hello);
       sender.emplace(channel, hello);
     }
+    if (picture && (picture->width != hello.width || picture->height != hello.height))
+      picture = Error{ErrorCode::BadContent,
+                      name + ": " + size_text(picture->width, picture->height) + " px, the first " +
+                          size_text(hello.width, hello.height) + "; due: one size"};
     if (!picture) {
       FrameHead head;
       head.kind = Kind::Damaged;

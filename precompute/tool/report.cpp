@@ -37,6 +37,11 @@ double real_of(const Json& result, const char* name) {
   return found == result.end() || !found->is_number() ? 0 : found->get<double>();
 }
 
+/// "1 clip", "1,234 clips".
+std::string count_text(const Json& result, const char* name, const char* one) {
+  return count_text(result, name) + " " + one + (count_of(result, name) == 1 ? "" : "s");
+}
+
 /// "a, b and c" of the parts that are not nothing.
 std::string counted(const Json& result,
                     std::initializer_list<std::pair<const char*, const char*>> parts) {
@@ -132,9 +137,9 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
       if (reason.is_string()) lines.push_back(reason.get<std::string>());
   };
   if (stage.name == "segment") {
-    lines.push_back(count_text(r, "frames") + " frames -> " + count_text(r, "samples") +
-                    " samples in " + count_text(r, "clips") + " clips, " +
-                    count_text(r, "duplicates") + " duplicates");
+    lines.push_back(count_text(r, "frames", "frame") + " -> " + count_text(r, "samples", "sample") +
+                    " in " + count_text(r, "clips", "clip") + ", " +
+                    count_text(r, "duplicates", "duplicate"));
     lines.push_back("background: " + r.value("background", ""));
     const std::string dropped = counted(r, {{"dropped_border", "cut by the border"},
                                             {"dropped_empty", "without the subject"},
@@ -148,7 +153,9 @@ std::vector<std::string> stage_lines(const StageOutcome& stage) {
                       ", for instance frame " + count_text(shown, "frame") + ": " +
                       shown.value("picture", ""));
     const std::string time =
-        counted(r, {{"cuts", "cuts"}, {"missing", "frames that the camera left out"}});
+        counted(r, {{"cuts", count_of(r, "cuts") == 1 ? "cut" : "cuts"},
+                    {"missing", count_of(r, "missing") == 1 ? "frame that the camera left out"
+                                                            : "frames that the camera left out"}});
     if (!time.empty()) lines.push_back("found: " + time);
     for (const Json& clip : r.value("cast", Json::array()))
       if (const std::string line = describe_matching(clip); !line.empty())
@@ -371,8 +378,9 @@ std::string info_text(const std::string& path, const Sprite& sprite, const PackI
                     std::to_string(info.minor) + ", " + bytes_text(info.bytes) + "\n";
   out += "  " + std::to_string(data.samples.size()) + " samples (" +
          std::to_string(kept_count(data)) + " kept) in " + std::to_string(clip_count(data)) +
-         " clips, at most " + std::to_string(size[0]) + "x" + std::to_string(size[1]) +
-         " px, body length " + fixed_text(double{data.body_length}, 1) + " px\n";
+         (clip_count(data) == 1 ? " clip" : " clips") + ", at most " + std::to_string(size[0]) +
+         "x" + std::to_string(size[1]) + " px, body length " +
+         fixed_text(double{data.body_length}, 1) + " px\n";
   out += "  " + std::to_string(data.transitions.size()) + " transitions, " +
          fixed_text(sprite.fps(), 2) + " ticks a second\n";
   for (const ControlMode& mode : data.modes) {

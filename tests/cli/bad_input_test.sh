@@ -83,8 +83,19 @@ expect 0 vsprite segment fields.mp4
 prints "warning: the film is interlaced"
 expect 0 vsprite segment circle.mp4
 grep -q 'warning: ' "$room/stdout" && fail "a warning of a film that is as due"
+prints "100 frames -> 100 samples in 1 clip, 0 duplicates"
 expect 0 vsprite segment fields.mp4 --json
 is_json /warnings/0
+# A row of pictures of which one has another size.
+mkdir row && ffmpeg -nostdin -v error -i circle.mp4 -frames:v 12 row/%02d.png || fail "ffmpeg"
+ffmpeg -nostdin -y -v error -i circle.mp4 -frames:v 1 -vf scale=80:60 row/07.png || fail "ffmpeg"
+expect 3 vsprite segment row
+says "error: row/07.png: 80 x 60 px, the first 160 x 120; due: one size"; one_sentence
+# An option without its value.
+expect 2 vsprite segment circle.mp4 --work; one_sentence
+says "--work: a value is missing; due: --work DIR"
+expect 2 vsprite build circle.mp4 --max-size; one_sentence
+says "--max-size: a value is missing; due: --max-size PX, 16..4096, such as --max-size 256"
 # Black bars are named, with the way to be rid of them; a subject before black has none.
 ffmpeg -nostdin -v error -i circle.mp4 -vf pad=200:160:20:16:black bars.mp4 || fail "ffmpeg"
 expect 3 vsprite segment bars.mp4

@@ -38,6 +38,15 @@ Error unknown_word(const Verb& verb, const std::string& word) {
                             : "did you mean `" + near + "`?")};
 }
 
+/// "--max-size: a value is missing; due: --max-size PX, 16..4096, such as --max-size 256".
+std::string value_missing(const Option& option) {
+  const std::string name = "--" + std::string(option.name);
+  std::string text = name + ": a value is missing; due: " + name + " " + std::string(option.value);
+  if (!option.range.empty()) text += ", " + std::string(option.range);
+  if (!option.fallback.empty()) text += ", such as " + name + " " + std::string(option.fallback);
+  return text;
+}
+
 void add_options(CLI::App& app, const Verb& verb, std::deque<Given>& given) {
   for (const Option& option : all_options()) {
     if (!takes(option, verb.name)) continue;
@@ -76,6 +85,12 @@ Result<Settings> parse_arguments(const Verb& verb, int count, char** arguments, 
     std::vector<std::string> words(arguments, arguments + count);
     std::reverse(words.begin(), words.end());
     app.parse(std::move(words));
+  } catch (const CLI::ArgumentMismatch& fault) {
+    const std::string what = fault.what();  // "--name: ..."
+    for (const Given& entry : given)
+      if (what.starts_with("--" + std::string(entry.option->name) + ":"))
+        return Error{ErrorCode::BadSetting, value_missing(*entry.option)};
+    return Error{ErrorCode::BadSetting, what};
   } catch (const CLI::ParseError& fault) {
     return Error{ErrorCode::BadSetting, std::string(fault.what())};
   }
