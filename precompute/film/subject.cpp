@@ -26,7 +26,7 @@ constexpr double kHiddenSeconds = 10;  // longer than this no part covers the su
 constexpr double kTrust = 0.3;         // of a frame's motion in the velocity of a part
 constexpr int kCoast = 15;             // frames that a part out of sight moves on as it did
 constexpr int kNearBorder = 4;         // who left is looked for as far off as after these frames
-constexpr int kForget = 60;            // frames that another part out of sight is remembered
+constexpr int kForget = 60;            // frames that another part is remembered, gone or mixed
 
 using detail::distance;
 using detail::median;
@@ -204,7 +204,7 @@ std::vector<const Blob*> seen_in(const std::vector<Mover>& movers,
   for (std::size_t m = 0; m < movers.size(); ++m)
     for (std::size_t o = 0; o < movers.size() && !seen[m]; ++o) {
       if (!own[o] || gap(own[o]->box, movers[m].seen->box) > 0) continue;
-      const bool still_in = movers[m].seen == movers[o].seen && movers[m].mixed <= kCoast;
+      const bool still_in = movers[m].seen == movers[o].seen && movers[m].mixed <= kForget;
       if (still_in || own[o]->area > kSwell * movers[o].alone.area) seen[m] = own[o];
     }
   return seen;
@@ -229,9 +229,8 @@ void follow_pointed(std::span<const FrameSummary> frames, std::size_t start, con
       return std::count(seen.begin(), seen.end(), seen[m]) == 1;
     };
     for (std::size_t m = 0; m < movers.size(); ++m) move_on(movers[m], seen[m], by_itself(m));
-    // One before the other, and no telling which: the subject is not to be seen.
-    const bool covered = seen[0] && !by_itself(0) && seen[0]->area <= kSwell * movers[0].alone.area;
-    track.blob[at] = covered ? nullptr : seen[0];
+    track.blob[at] = seen[0];
+    track.mixed[at] = seen[0] && !by_itself(0);
     // Who comes while the subject is out of sight may be the subject, unless that left elsewhere.
     const Mover& subject = movers[0];
     if (subject.lost == 0 || (subject.seen->touches_border && subject.lost > kNearBorder))
@@ -304,7 +303,9 @@ class Meeting {
  private:
   Fate alone(std::size_t f) const {
     const Blob* blob = track_.blob[f];
-    return !blob ? Fate::Empty : blob->touches_border ? Fate::Border : Fate::Kept;
+    if (!blob) return Fate::Empty;
+    if (blob->touches_border) return Fate::Border;
+    return track_.mixed[f] ? Fate::Hidden : Fate::Kept;
   }
 
   void begin(std::size_t f, const Blob& blob) {
@@ -397,6 +398,7 @@ Rivals rivals_of(std::span<const FrameSummary> frames, const Track& track) {
 Track largest_track(std::span<const FrameSummary> frames, double fps) {
   Track track;
   track.blob.resize(frames.size());
+  track.mixed.resize(frames.size());
   track.still = find_still(frames, fps);
   track.usual_area = usual_area(frames, track.still);
   follow_largest(frames, track);

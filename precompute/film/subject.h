@@ -52,6 +52,7 @@ struct Track {
   std::vector<const Blob*> blob;     ///< (frames) into the summaries; null where there is none
   std::vector<Fate> fate;            ///< (frames) Kept, Empty, Border, Touched or Hidden
   std::vector<std::uint32_t> still;  ///< (frames) bit b: blob b is a thing that came and lies still
+  std::vector<std::uint8_t> mixed;   ///< (frames) 1: its blob is another one of several too
   double usual_area = 0;             ///< px^2, median of the whole subject
   double body = 8;                   ///< px, usual longer side
 };
