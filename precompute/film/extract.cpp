@@ -263,7 +263,7 @@ Error nothing_left(const Extraction& result, const ExtractConfig& config) {
   return {ErrorCode::BadContent, "no clip of " + std::to_string(config.min_clip) +
                                      " samples is left: " + std::to_string(result.fates.size()) +
                                      (result.fates.size() == 1 ? " frame, " : " frames, ") + why +
-                                     "; film the subject whole, for longer"};
+                                     "; film the subject whole, for longer, from a stand"};
 }
 
 void add_mirrored(Extraction& result) {
