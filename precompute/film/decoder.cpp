@@ -234,10 +234,6 @@ void put_text(char (&to)[N], const std::string& text) {
   std::strncpy(to, text.c_str(), N - 1);
 }
 
-std::string size_text(int width, int height) {
-  return std::to_string(width) + " x " + std::to_string(height);
-}
-
 void decode_pictures(const Channel& channel, const FilmSource& source, const Selection& selection) {
   const int out = channel.socket;
   Hello hello;

@@ -56,6 +56,11 @@ struct Selection {
 
 inline constexpr int kExitNoMemory = 71;
 
+/// "1920 x 1080".
+inline std::string size_text(int width, int height) {
+  return std::to_string(width) + " x " + std::to_string(height);
+}
+
 /// The child's ends.
 struct Channel {
   int socket, memory;

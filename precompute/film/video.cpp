@@ -31,6 +31,7 @@ using detail::Hello;
 using detail::kExitNoMemory;
 using detail::Kind;
 using detail::Selection;
+using detail::size_text;
 
 void Frame::resize(int w, int h) {
   width = w;
@@ -233,8 +234,7 @@ Result<void> FilmReader::Impl::start(const FilmSource& source, const Selection& 
                  path + ": no way to a decoder process: " + std::strerror(errno)};
   const pid_t parent = getpid();
   child = fork();
-  if (child == 0)
-    detail::decode_in_child({ends[1], memory.fd}, parent, source, selection);
+  if (child == 0) detail::decode_in_child({ends[1], memory.fd}, parent, source, selection);
   close(ends[1]);
   fd = ends[0];
   if (child < 0)
@@ -251,13 +251,12 @@ Result<void> FilmReader::Impl::start(const FilmSource& source, const Selection& 
                   (source.first > 0 ? " from " + std::to_string(source.first) + " on" : "") +
                   " can be decoded; due: a video file such as MP4"};
   if (hello.width < 1 || hello.height < 1 || hello.width > kMaxSide || hello.height > kMaxSide)
-    return Error{ErrorCode::LimitExceeded, path + ": frames of " + std::to_string(hello.width) +
-                                               " x " + std::to_string(hello.height) +
-                                               " px; due: at most " + std::to_string(kMaxSide) +
-                                               " px a side"};
+    return Error{ErrorCode::LimitExceeded,
+                 path + ": frames of " + size_text(hello.width, hello.height) +
+                     " px; due: at most " + std::to_string(kMaxSide) + " px a side"};
   if (!ring.make(memory.fd, hello.width, hello.height))
-    return Error{ErrorCode::OutOfMemory, path + ": frames of " + std::to_string(hello.width) +
-                                             " x " + std::to_string(hello.height) +
+    return Error{ErrorCode::OutOfMemory, path + ": frames of " +
+                                             size_text(hello.width, hello.height) +
                                              " px: no memory for them: " + std::strerror(errno)};
   grant(ring.slots());
   info.width = hello.width;
@@ -292,10 +291,9 @@ Result<void> FilmReader::Impl::start_matte(const FilmSource& source, const Selec
   if (auto started = matte->start(other, selection); !started) return started;
   if (matte->info.width != info.width || matte->info.height != info.height)
     return Error{ErrorCode::BadContent, matte->path + ": the matte is " +
-                                            std::to_string(matte->info.width) + " x " +
-                                            std::to_string(matte->info.height) + " px, the film " +
-                                            std::to_string(info.width) + " x " +
-                                            std::to_string(info.height) + "; due: one size"};
+                                            size_text(matte->info.width, matte->info.height) +
+                                            " px, the film " + size_text(info.width, info.height) +
+                                            "; due: one size"};
   info.has_alpha = true;
   return {};
 }
@@ -305,9 +303,9 @@ Result<bool> FilmReader::Impl::pull_frame(const FrameHead& head, Frame& frame) {
   if (head.width != info.width || head.height != info.height) {
     stop();
     return Error{ErrorCode::CorruptData,
-                 path + ": frame " + std::to_string(next) + " is " + std::to_string(head.width) +
-                     " x " + std::to_string(head.height) + " px, the first " +
-                     std::to_string(info.width) + " x " + std::to_string(info.height) +
+                 path + ": frame " + std::to_string(next) + " is " +
+                     size_text(head.width, head.height) + " px, the first " +
+                     size_text(info.width, info.height) +
                      "; due: one size throughout; cut the film where the size changes"};
   }
   try {
@@ -315,9 +313,9 @@ Result<bool> FilmReader::Impl::pull_frame(const FrameHead& head, Frame& frame) {
     frame.rgba.resize(head.has_rgba != 0 ? 4 * frame.y.size() : 0);
   } catch (const std::bad_alloc&) {
     stop();
-    return Error{ErrorCode::OutOfMemory, path + ": a frame of " + std::to_string(head.width) +
-                                             " x " + std::to_string(head.height) +
-                                             " px does not fit in memory"};
+    return Error{
+        ErrorCode::OutOfMemory,
+        path + ": a frame of " + size_text(head.width, head.height) + " px does not fit in memory"};
   }
   const std::uint8_t* from = ring.next();
   for (auto* plane : {&frame.y, &frame.cb, &frame.cr, &frame.rgba}) {
