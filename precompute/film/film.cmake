@@ -14,6 +14,7 @@ target_sources(vsprite_precompute PRIVATE
   film/silhouette.cpp
   film/cut.cpp
   film/behind.cpp
+  film/measure_subject.cpp
   film/plate.cpp
   film/unmix.cpp
   film/matte.cpp

@@ -8,27 +8,27 @@
 // and behind what rests the colour that continues the rest (film/behind.h).
 #include "film/plate.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 
 #include "film/behind.h"
 #include "film/color.h"
 #include "film/coverage.h"
-#include "film/cut.h"
 #include "film/light.h"
+#include "film/measure_subject.h"
 #include "film/silhouette.h"
+#include "film/sum_over.h"
 
 namespace vsprite {
 namespace {
 
 using detail::Grid;
 using detail::Mask;
+using detail::sum_over;
 using detail::Surface;
 using detail::SurfaceFit;
 
@@ -45,17 +45,6 @@ Ycc ycc(float r, float g, float b) {
 
 Ycc cell_ycc(const Grid& grid, std::size_t i) {
   return ycc(0.25f * grid.plane[0][i], 0.25f * grid.plane[1][i], 0.25f * grid.plane[2][i]);
-}
-
-// What `add` makes of 0..count-1, on all threads, into sums of whole numbers: the same for any
-// number of threads. Sum: has += for another.
-template <class Sum, class Add>
-Sum sum_over(std::size_t count, Add add) {
-  tbb::enumerable_thread_specific<Sum> parts;
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { add(i, parts.local()); });
-  Sum sum{};
-  for (const Sum& part : parts) sum += part;
-  return sum;
 }
 
 // 1.4826 x median of |r| over a histogram of quarter code values.
@@ -104,6 +93,21 @@ struct Spreads {
   }
 };
 
+struct LumaCounts {
+  std::uint64_t of[256] = {}, count = 0;
+  void add(float y) {
+    ++of[std::clamp(static_cast<int>(y + 0.5f), 0, 255)];
+    ++count;
+  }
+  /// 0 of none.
+  int median() const {
+    std::uint64_t seen = 0;
+    int y = 0;
+    while (2 * (seen += of[y]) < count) ++y;
+    return y;
+  }
+};
+
 struct ScreenColor {
   double cb = 0, cr = 0, y = 0;
 };
@@ -133,42 +137,33 @@ ScreenColor most_frequent_color(const std::vector<Grid>& grids) {
       }
     }
   ScreenColor color;
-  std::uint64_t luma[256] = {};
-  std::uint64_t count = 0;
+  LumaCounts luma;
   for (const Grid& grid : grids)
     for (std::size_t i = 0; i < grid.cells(); i += 3) {
       const Ycc c = cell_ycc(grid, i);
       if (std::abs(bin(c.cb) - best_cb) > 1 || std::abs(bin(c.cr) - best_cr) > 1) continue;
       color.cb += static_cast<double>(c.cb);
       color.cr += static_cast<double>(c.cr);
-      ++luma[std::clamp(static_cast<int>(c.y + 0.5f), 0, 255)];
-      ++count;
+      luma.add(c.y);
     }
-  color.cb /= static_cast<double>(std::max<std::uint64_t>(count, 1));
-  color.cr /= static_cast<double>(std::max<std::uint64_t>(count, 1));
-  std::uint64_t seen = 0;
-  while (color.y < 255 && 2 * (seen += luma[static_cast<int>(color.y)]) < count) color.y += 1;
+  color.cb /= static_cast<double>(std::max<std::uint64_t>(luma.count, 1));
+  color.cr /= static_cast<double>(std::max<std::uint64_t>(luma.count, 1));
+  color.y = luma.median();
   return color;
 }
 
 // Median luma of the cells of the screen's colour; -1: there are none.
 int level_of(const Grid& grid, const ScreenColor& color) {
   constexpr double kReach = 6;
-  std::uint64_t luma[256] = {};
-  std::uint64_t count = 0;
+  LumaCounts luma;
   for (std::size_t i = 0; i < grid.cells(); i += 7) {
     const Ycc c = cell_ycc(grid, i);
     if (std::abs(static_cast<double>(c.cb) - color.cb) > kReach ||
         std::abs(static_cast<double>(c.cr) - color.cr) > kReach)
       continue;
-    ++luma[std::clamp(static_cast<int>(c.y + 0.5f), 0, 255)];
-    ++count;
+    luma.add(c.y);
   }
-  if (count == 0) return -1;
-  std::uint64_t seen = 0;
-  int level = 0;
-  while (2 * (seen += luma[level]) < count) ++level;
-  return level;
+  return luma.count > 0 ? luma.median() : -1;
 }
 
 // The frames that a surface is fitted to: all, or, where the film has several exposures, those of
@@ -576,181 +571,6 @@ Result<ScreenModel> model_standing(std::span<const Frame> frames, const std::vec
   return screen;
 }
 
-// Where a standing plate is of the subject's own colour, the mouse before the dark wall, its shadow
-// and reflection differ from it as much as it does.
-void mark_unlike(const float (&subject)[3], ScreenModel& screen) {
-  const float least = detail::kUnlike * screen.subject_contrast;
-  screen.unlike.resize(screen.cells[0].size());
-  for (std::size_t i = 0; i < screen.unlike.size(); ++i) {
-    const float away =
-        detail::distance_squared(subject[0] - screen.cells[0][i], subject[1] - screen.cells[1][i],
-                                 subject[2] - screen.cells[2][i]);
-    screen.unlike[i] = away > least * least ? 1 : 0;
-  }
-}
-
-// The colours of what stands out as the subject does: its shadow is fainter. A plate of such a
-// colour where the subject was about in a quarter of the frames may be the subject.
-void learn_colors(std::span<const Frame> frames, ScreenModel& screen) {
-  constexpr int kLikely = 480;  // of a colour that the subject has
-  detail::SubjectColors colors;
-  detail::Silhouette s;
-  const int width = (screen.width + 1) / 2;
-  std::vector<std::uint16_t> visits(screen.cells[0].size());
-  int seen = 0;
-  for (const Frame& frame : frames) {
-    detail::find_silhouette(screen, frame, s);
-    if (s.empty) continue;
-    ++seen;
-    const Mask inside = erode(s.mask, 1);
-    const Mask near = dilate(s.mask, detail::kCutReach);
-    for (int y = 0; y < inside.height; ++y)
-      for (int x = 0; x < inside.width; ++x) {
-        const auto i = static_cast<std::size_t>(y * inside.width + x);
-        const auto cell = static_cast<std::size_t>((s.window.top + y) * width + s.window.left + x);
-        visits[cell] += near.in[i];
-        if (inside.in[i] && (s.contrast[i] > 0.5f * screen.subject_contrast ||
-                             screen.witness[cell] == kInvented))
-          colors.add(s.grid.plane[0][i], s.grid.plane[1][i], s.grid.plane[2][i]);
-      }
-  }
-  screen.subject_cost = colors.costs();
-  for (std::size_t i = 0; i < visits.size() && !screen.subject_cost.empty(); ++i) {
-    const auto sum = [&](int p) {
-      return static_cast<int>(4 * std::clamp(screen.cells[p][i], 0.0f, 255.0f));
-    };
-    if (4 * visits[i] > seen &&
-        screen.subject_cost[detail::color_step(sum(0), sum(1), sum(2))] < kLikely)
-      screen.witness[i] = kOccupied;
-  }
-}
-
-// Histograms of what stands out, of one frame or of all.
-struct SubjectFigures {
-  static constexpr float kKeySteps = 50;  // of v, and of the distance to the plate without a key
-  static constexpr float kDistanceSteps = 200;
-
-  std::vector<std::uint32_t> strengths = std::vector<std::uint32_t>(400);
-  std::vector<std::uint32_t> contrasts = std::vector<std::uint32_t>(512);
-  std::vector<std::uint64_t> colors[3] = {  // sums of four, by contrast
-      std::vector<std::uint64_t>(512), std::vector<std::uint64_t>(512),
-      std::vector<std::uint64_t>(512)};
-  std::uint64_t strength_count = 0, contrast_count = 0;
-  std::vector<int> areas;  // of the largest part of each frame, in any order
-
-  void add_frame(const ScreenModel& screen, const Frame& frame);
-  SubjectFigures& operator+=(const SubjectFigures& other);
-
- private:
-  void add_strengths(const ScreenModel& screen, const detail::Silhouette& s);
-};
-
-SubjectFigures& SubjectFigures::operator+=(const SubjectFigures& other) {
-  const auto sum = [](auto& to, const auto& from) {
-    std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
-  };
-  sum(strengths, other.strengths);
-  sum(contrasts, other.contrasts);
-  for (int p = 0; p < 3; ++p) sum(colors[p], other.colors[p]);
-  strength_count += other.strength_count;
-  contrast_count += other.contrast_count;
-  areas.insert(areas.end(), other.areas.begin(), other.areas.end());
-  return *this;
-}
-
-void SubjectFigures::add_frame(const ScreenModel& screen, const Frame& frame) {
-  detail::Silhouette s;
-  detail::find_silhouette(screen, frame, s);
-  if (s.empty) return;
-  std::vector<int> labels;
-  const int parts = detail::connected_parts(s.mask, labels);
-  std::vector<int> size(static_cast<std::size_t>(parts) + 1);
-  for (const int label : labels) ++size[static_cast<std::size_t>(label)];
-  areas.push_back(*std::max_element(size.begin() + 1, size.end()));
-  const Mask inside = erode(s.mask, 1);
-  for (std::size_t i = 0; i < inside.in.size(); ++i) {
-    if (!inside.in[i]) continue;
-    const auto of = std::min(static_cast<std::size_t>(s.contrast[i]), contrasts.size() - 1);
-    ++contrasts[of];
-    ++contrast_count;
-    for (std::size_t p = 0; p < 3; ++p) colors[p][of] += s.grid.plane[p][i];
-  }
-  if (screen.kind != KeyKind::Plate) add_strengths(screen, s);
-}
-
-// How strong its colours are against the key.
-void SubjectFigures::add_strengths(const ScreenModel& screen, const detail::Silhouette& s) {
-  const Mask deep = erode(s.mask, 4);
-  std::vector<float> away(deep.in.size());
-  if (screen.key < 0)
-    detail::lanes().distance({s.frame[0].data(), s.frame[1].data(), s.frame[2].data()},
-                             {s.plate[0].data(), s.plate[1].data(), s.plate[2].data()}, away.size(),
-                             away.data());
-  for (std::size_t i = 0; i < deep.in.size(); ++i) {
-    if (!deep.in[i]) continue;
-    if (screen.key < 0) {
-      ++strengths[static_cast<std::size_t>(std::min(away[i] * kDistanceSteps, 399.0f))];
-      ++strength_count;
-      continue;
-    }
-    const float full =
-        detail::key_strength(screen.key, s.plate[0][i], s.plate[1][i], s.plate[2][i]);
-    if (!(full > 0.02f)) continue;
-    const float v =
-        1 - detail::key_strength(screen.key, s.frame[0][i], s.frame[1][i], s.frame[2][i]) / full;
-    ++strengths[static_cast<std::size_t>(std::clamp(v * kKeySteps, 0.0f, 399.0f))];
-    ++strength_count;
-  }
-}
-
-// What the subject's own figures have to say: how strong its colours are against the key, and how
-// large it is.
-void measure_subject(std::span<const Frame> frames, ScreenModel& screen) {
-  detail::prepare_model(screen);
-  auto [strengths, contrasts, colors, strength_count, contrast_count, areas] =
-      sum_over<SubjectFigures>(frames.size(), [&](std::size_t f, SubjectFigures& sum) {
-        sum.add_frame(screen, frames[f]);
-      });
-  std::uint64_t seen = 0;
-  std::size_t bin = 0;
-  while (bin < 399 && 10 * (seen += strengths[bin]) < 9 * strength_count) ++bin;
-  if (strength_count > 0)
-    screen.key_normaliser =
-        (static_cast<float>(bin) + 0.5f) /
-        (screen.key >= 0 ? SubjectFigures::kKeySteps : SubjectFigures::kDistanceSteps);
-  if (screen.key >= 0) screen.key_normaliser = std::max(1.0f, screen.key_normaliser);
-  // Half of all cells reach the usual contrast. Before a standing camera it is half of all contrast
-  // that does: shadows and reflections are faint, however wide.
-  std::vector<std::uint64_t> weights(contrasts.begin(), contrasts.end());
-  std::uint64_t whole = 0;
-  if (screen.kind == KeyKind::Plate)
-    for (std::size_t k = 0; k < contrasts.size(); ++k) weights[k] *= k;
-  for (const std::uint64_t weight : weights) whole += weight;
-  seen = 0;
-  bin = 0;
-  while (bin < contrasts.size() - 1 && 2 * (seen += weights[bin]) < whole) ++bin;
-  screen.subject_contrast = static_cast<float>(bin);
-  if (screen.kind == KeyKind::Plate && contrast_count > 0) {
-    float subject[3];
-    for (int p = 0; p < 3; ++p) {
-      double sum = 0;
-      double count = 0;
-      for (std::size_t k = bin; k < contrasts.size(); ++k) {
-        sum += static_cast<double>(colors[p][k]);
-        count += contrasts[k];
-      }
-      subject[p] = static_cast<float>(0.25 * sum / count);
-    }
-    mark_unlike(subject, screen);
-    learn_colors(frames, screen);
-  }
-  if (areas.empty()) return;
-  std::nth_element(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(areas.size() / 2),
-                   areas.end());
-  const double side = std::sqrt(static_cast<double>(areas[areas.size() / 2]));
-  screen.opening = std::max(1, static_cast<int>(0.1 * side + 0.5));
-}
-
 }  // namespace
 
 float ScreenModel::whole_noise() const noexcept {
@@ -830,12 +650,12 @@ Result<ScreenModel> measure_screen(std::span<const Frame> frames, const KeyConfi
       screen.reason = std::string(keyed ? "coloured" : "plain") + " screen " +
                       color_text(screen.color) + ": " + percent(surface.share) +
                       " of the picture lies near one smooth surface";
-      measure_subject(frames, screen);
+      detail::measure_subject(frames, screen);
       return screen;
     }
   }
   auto standing = model_standing(frames, grids, config.kind == KeyKind::Plate ? 0.4 : 0.75, screen);
-  if (standing) measure_subject(frames, *standing);
+  if (standing) detail::measure_subject(frames, *standing);
   return standing;
 }
 

@@ -109,8 +109,6 @@ std::vector<DriftSample> sample_drift(const ScreenModel& screen, const Frame& fr
   return samples;
 }
 
-}  // namespace
-
 // None, or, where less than a quarter of the samples lies within `reach` of none and more of their
 // median, that: another exposure.
 Surface first_drift(const std::vector<DriftSample>& samples, float reach) {
@@ -136,6 +134,8 @@ Surface first_drift(const std::vector<DriftSample>& samples, float reach) {
     for (int p = 0; p < 3; ++p) drift.coefficient[p][0] = static_cast<double>(middle[p]);
   return drift;
 }
+
+}  // namespace
 
 // The residual of the sure background, some thousand cells of it, in four rounds. Each round
 // believes what lies near the round before.
